@@ -1,0 +1,33 @@
+/* The truth: docs/model.md in extended precision on the CPU, in the plainest way. No Vulkan. */
+#ifndef TURNER_REFERENCE_REFERENCE_H
+#define TURNER_REFERENCE_REFERENCE_H
+
+#include "base/result.h"
+#include "scene/scene.h"
+#include "turner.h"
+
+struct turner_reference_statistics {
+    uint64_t camera_rays, reflected_rays, refracted_rays, shadow_rays;
+    uint64_t tir_rays;       /* reflected rays that total internal reflection sent (in reflected) */
+    uint64_t camera_hits;    /* camera rays that hit anything */
+    int largest_depth;       /* of a ray that was followed */
+};
+
+/* Called from one thread with the share done in [0,1]; returning false stops the rendering
+ * (TURNER_INTERRUPTED). May be NULL. */
+typedef bool (*turner_progress)(double share, void *user);
+
+/* Renders scene->settings.width × height into a created image; the fourth channel is `pruned`.
+ * `threads` 0 means one per core. The result does not depend on it. */
+enum turner_result turner_reference_render(struct turner_image *image, const struct turner_scene *scene,
+                                           int threads, struct turner_reference_statistics *statistics,
+                                           turner_progress progress, void *user);
+
+/* Radiance along one ray from `origin` (outside all media but camera.inside), in double: for
+ * tests. `direction` need not be unit. */
+enum turner_result turner_reference_radiance(struct turner_vec3 *radiance, double *pruned,
+                                             const struct turner_scene *scene,
+                                             struct turner_vec3 origin,
+                                             struct turner_vec3 direction);
+
+#endif

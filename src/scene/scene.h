@@ -1,0 +1,208 @@
+/* The data model: what a scene is, whatever file it came from. docs/model.md gives the formulas,
+ * docs/scenes.md the JSON that fills it.
+ *
+ * Numbers are kept in double as their author wrote them. Colours are linear RGB in turner_vec3
+ * (x = red). Angles are radians here (degrees in files). Every reader ends with
+ * turner_scene_validate, so the renderers may rely on all that is stated here. */
+#ifndef TURNER_SCENE_SCENE_H
+#define TURNER_SCENE_SCENE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/result.h"
+#include "base/vec.h"
+#include "turner.h"
+
+/* Limits; a file that goes beyond is refused with the figure. */
+#define TURNER_MAX_FILE_BYTES (1u << 30)
+#define TURNER_MAX_PRIMITIVES (1u << 28)  /* spheres + cones + triangles after loading */
+#define TURNER_MAX_INSTANCES ((1u << 24) - 1)
+#define TURNER_MAX_MATERIALS (1u << 20)
+#define TURNER_MAX_MEDIA 255
+#define TURNER_MAX_PLANES 64
+#define TURNER_MAX_LIGHTS 4096
+#define TURNER_MAX_DEPTH 1024
+#define TURNER_MAX_BRANCH_DEPTH 64 /* where a material both reflects and transmits */
+#define TURNER_MAX_SPP 65536
+#define TURNER_MAX_SIZE 65536 /* picture width and height */
+#define TURNER_MEDIA_NESTING 8 /* media a ray may be inside of at once */
+#define TURNER_NONE UINT32_MAX
+
+enum turner_shading { TURNER_SHADING_PHONG, TURNER_SHADING_ENERGY_CONSERVING };
+enum turner_shadows { TURNER_SHADOWS_OPAQUE, TURNER_SHADOWS_TINTED };
+enum turner_transfer { TURNER_TRANSFER_SRGB, TURNER_TRANSFER_LINEAR };
+enum turner_fresnel { TURNER_FRESNEL_NONE, TURNER_FRESNEL_SCHLICK, TURNER_FRESNEL_EXACT };
+
+struct turner_settings {
+    int width, height;     /* 1 … TURNER_MAX_SIZE; default 640×480 */
+    int depth;             /* max_depth, 0 … TURNER_MAX_DEPTH; default 8 */
+    double cutoff;         /* ≥ 0; default 1/512; 0 switches it off */
+    int spp;               /* samples per pixel, ≥ 1; default 1; pattern in docs/model.md */
+    enum turner_shading shading;   /* default energy_conserving */
+    enum turner_shadows shadows;   /* default tinted */
+    double exposure;       /* stops, for 8/16-bit output; default 0 */
+    enum turner_transfer transfer; /* for 8/16-bit output; default srgb */
+    bool spd_rays;         /* a hit with k_t > 0 sends a reflection ray even of weight 0 */
+    bool spd_grid;         /* samples spaced 2·tan(vfov/2)/(height−2) instead of …/height */
+};
+
+struct turner_camera {
+    struct turner_vec3 from, at, up; /* from ≠ at, up not parallel to at − from */
+    double vfov;                     /* full vertical angle, 0 < vfov < π */
+    uint32_t inside[TURNER_MEDIA_NESTING]; /* media the eye is in, indices into media */
+    uint32_t inside_count;
+};
+
+/* Sorted by (priority, order of declaration): the highest index that a ray is inside of is the
+ * medium it travels in. */
+struct turner_medium {
+    char *name;                    /* may be NULL (made for one material) */
+    double index;                  /* refractive index > 0 */
+    struct turner_vec3 absorption; /* σ_a ≥ 0, 1/m */
+    int priority;
+};
+
+/* A picture as texture: linear RGB floats, row 0 at the top. */
+struct turner_texture_image {
+    char *path;
+    int width, height;
+    float *rgb;
+};
+
+enum turner_pattern { TURNER_PATTERN_NONE, TURNER_PATTERN_CHECKER, TURNER_PATTERN_IMAGE };
+
+struct turner_material {
+    char *name; /* may be NULL */
+    struct turner_vec3 k_e, k_a, k_d, k_s, k_r, k_t; /* all ≥ 0 */
+    double exponent;                     /* Phong n ≥ 0 */
+    enum turner_fresnel fresnel;
+    bool conductor;                      /* complex index eta + i·k, fresnel EXACT, k_t = 0 */
+    struct turner_vec3 eta, k;
+    uint32_t medium;                     /* what is behind the surface; TURNER_NONE iff k_t = 0 */
+    /* The pattern's colour multiplies k_d and k_a. */
+    enum turner_pattern pattern;
+    double uv_scale[2];                  /* multiplies (u, v) first */
+    struct turner_vec3 checker[2];       /* colour where floor(u) + floor(v) is even, odd */
+    uint32_t image;                      /* index into texture_images */
+};
+
+/* Primitives live in a group, in the group's own coordinates. `material` is an index. */
+struct turner_sphere {
+    struct turner_vec3 center;
+    double radius; /* > 0 */
+    uint32_t material;
+};
+
+/* Cylinder, cone or truncated cone; open (two-sided sheet) or with flat caps. */
+struct turner_cone {
+    struct turner_vec3 base, apex; /* centres of the two ends, base ≠ apex */
+    double base_radius, apex_radius; /* ≥ 0, not both 0 */
+    bool capped;
+    uint32_t material;
+};
+
+/* Infinite; the interior is the half space on the side opposite to the normal. */
+struct turner_plane {
+    struct turner_vec3 point, normal; /* normal unit */
+    struct turner_vec3 tangent;       /* unit, perpendicular to normal; u = (p − point)·tangent,
+                                         v = (p − point)·(normal × tangent), in metres */
+    uint32_t material;
+};
+
+/* An indexed triangle mesh, counter-clockwise from outside. */
+struct turner_mesh {
+    struct turner_vec3 *positions; /* vertex_count */
+    float (*normals)[3];           /* vertex_count unit vectors, or NULL: flat */
+    float (*uvs)[2];               /* vertex_count, or NULL: (u, v) = barycentric (b1, b2) */
+    uint32_t (*triangles)[3];      /* triangle_count */
+    uint32_t vertex_count, triangle_count;
+    uint32_t material;
+};
+
+struct turner_group {
+    char *name; /* NULL for group 0 */
+    struct turner_sphere *spheres;
+    struct turner_cone *cones;
+    struct turner_mesh *meshes; /* owned; two groups never share */
+    size_t sphere_count, cone_count, mesh_count;
+    size_t sphere_capacity, cone_capacity, mesh_capacity;
+};
+
+struct turner_instance {
+    uint32_t group;    /* never 0 */
+    uint32_t material; /* TURNER_NONE, or replaces every material of the group */
+    struct turner_affine transform; /* group to world, invertible */
+};
+
+enum turner_light_kind { TURNER_LIGHT_DIRECTIONAL, TURNER_LIGHT_POINT, TURNER_LIGHT_SPOT };
+enum turner_falloff { TURNER_FALLOFF_INVERSE_SQUARE, TURNER_FALLOFF_NONE };
+
+struct turner_light {
+    enum turner_light_kind kind;
+    struct turner_vec3 position;  /* point, spot */
+    struct turner_vec3 direction; /* unit, the way the light travels; directional, spot */
+    struct turner_vec3 power;     /* directional: irradiance; point, spot: radiant intensity J
+                                     (readers turn flux into J) */
+    enum turner_falloff falloff;  /* point, spot */
+    double cos_inner, cos_outer;  /* spot: full inside inner, none outside outer; inner ≥ outer */
+};
+
+enum turner_background_kind {
+    TURNER_BACKGROUND_CONSTANT,
+    TURNER_BACKGROUND_GRADIENT,
+    TURNER_BACKGROUND_ENVIRONMENT
+};
+
+struct turner_background {
+    enum turner_background_kind kind;
+    struct turner_vec3 color;       /* constant; gradient: straight down (−up) */
+    struct turner_vec3 top;         /* gradient: straight up */
+    struct turner_vec3 up;          /* gradient: unit; default +y */
+    struct turner_vec3 scale;       /* environment: multiplies the picture */
+    double rotation;                /* environment: about +y, radians */
+    uint32_t image;                 /* environment: index into texture_images */
+};
+
+struct turner_scene {
+    char *path, *description; /* either may be NULL */
+    struct turner_settings settings;
+    struct turner_camera camera;
+    struct turner_vec3 ambient; /* I_a */
+    struct turner_background background;
+    struct turner_medium *media;
+    struct turner_material *materials;
+    struct turner_texture_image *texture_images;
+    struct turner_plane *planes; /* world only */
+    struct turner_group *groups; /* groups[0] always exists: the world's own primitives */
+    struct turner_instance *instances; /* of the other groups; an instance of groups[0] with the
+                                          identity is implied and not listed */
+    struct turner_light *lights;
+    size_t media_count, material_count, texture_image_count, plane_count, group_count,
+        instance_count, light_count;
+    size_t media_capacity, material_capacity, texture_image_capacity, plane_capacity,
+        group_capacity, instance_capacity, light_capacity;
+};
+
+/* An empty scene with default settings, a camera at (0,0,5) looking at the origin, and group 0. */
+struct turner_scene *turner_scene_create(void);
+
+/* Checks every statement above, finiteness of every number and every limit. The message names the
+ * thing ("sphere 3 of group \"tree\": …") for formats that have no better place to point at. */
+enum turner_result turner_scene_validate(const struct turner_scene *scene);
+
+/* Triangles, spheres and cones of one group. */
+size_t turner_group_primitive_count(const struct turner_group *group);
+
+/* Appends a box with corners lo and hi as a mesh of 12 flat triangles (each face has uv 0…1). */
+void turner_group_add_box(struct turner_group *group, struct turner_vec3 lo, struct turner_vec3 hi,
+                          uint32_t material);
+
+/* Sorts media as stated above and mends every reference to them. Readers call it once. */
+void turner_scene_sort_media(struct turner_scene *scene);
+
+/* Sample `index` of `count` of a pixel, in [0,1)²; one sample lies in the centre. The pattern is
+ * Hammersley's: x = (i + ½)/count, y = van der Corput base 2 of i plus half its last step. */
+void turner_sample_position(double *x, double *y, int index, int count);
+
+#endif
