@@ -1,0 +1,265 @@
+/* Every struct, constant and binding that C and GLSL share, once. GLSL reads the structs through
+ * buffer references in scalar layout, which is how C lays them out too: members are 4 bytes wide,
+ * or 8 and first. */
+#ifndef TURNER_SHADERS_SHARED_H
+#define TURNER_SHADERS_SHARED_H
+
+#ifdef GL_core_profile
+#define TURNER_STRUCT(name) struct name
+#define TURNER_VEC2(name) vec2 name
+#define TURNER_VEC3(name) vec3 name
+#define TURNER_UVEC2(name) uvec2 name
+#define TURNER_ADDRESS uint64_t
+#else
+#include <stdint.h>
+#define TURNER_STRUCT(name) struct name
+#define TURNER_VEC2(name) float name[2]
+#define TURNER_VEC3(name) float name[3]
+#define TURNER_UVEC2(name) uint32_t name[2]
+#define TURNER_ADDRESS uint64_t
+#define uint uint32_t
+#endif
+
+/* ---- bindings and specialisation constants ---- */
+#define TURNER_BINDING_TLAS 0       /* ray_query only */
+#define TURNER_CONSTANT_NEEDS 0     /* TURNER_NEEDS_… of the scene */
+#define TURNER_CONSTANT_STACK 1     /* pending rays kept at once: max_depth where rays branch */
+#define TURNER_CONSTANT_BVH_STACK 2 /* nodes kept at once: from the depth of the built tree */
+#define TURNER_WORKGROUP 8          /* a workgroup is 8×8 pixels in Morton order */
+
+/* ---- what a scene may need; what it does not is not in the kernel ---- */
+#define TURNER_NEEDS_SPHERES (1u << 0)
+#define TURNER_NEEDS_CONES (1u << 1)
+#define TURNER_NEEDS_TRIANGLES (1u << 2)
+#define TURNER_NEEDS_PLANES (1u << 3)
+#define TURNER_NEEDS_INSTANCES (1u << 4)
+#define TURNER_NEEDS_SMOOTH (1u << 5)       /* interpolated normals */
+#define TURNER_NEEDS_CHECKER (1u << 6)
+#define TURNER_NEEDS_IMAGES (1u << 7)       /* image textures on surfaces */
+#define TURNER_NEEDS_DIRECTIONAL (1u << 8)
+#define TURNER_NEEDS_POINT (1u << 9)        /* point or spot: a position */
+#define TURNER_NEEDS_SPOT (1u << 10)
+#define TURNER_NEEDS_PHONG (1u << 11)
+#define TURNER_NEEDS_CONSERVING (1u << 12)
+#define TURNER_NEEDS_SPECULAR (1u << 13)    /* a k_s that is not 0 */
+#define TURNER_NEEDS_REFLECTION (1u << 14)
+#define TURNER_NEEDS_TRANSMISSION (1u << 15)
+#define TURNER_NEEDS_BRANCHING (1u << 16)   /* a hit may send two rays */
+#define TURNER_NEEDS_SCHLICK (1u << 17)
+#define TURNER_NEEDS_EXACT (1u << 18)
+#define TURNER_NEEDS_CONDUCTOR (1u << 19)
+#define TURNER_NEEDS_MEDIA (1u << 20)       /* rays carry what they are inside of */
+#define TURNER_NEEDS_ABSORPTION (1u << 21)
+#define TURNER_NEEDS_TINTED (1u << 22)      /* shadows through transmissive surfaces */
+#define TURNER_NEEDS_GRADIENT (1u << 23)
+#define TURNER_NEEDS_ENVIRONMENT (1u << 24)
+#define TURNER_NEEDS_ALL ((1u << 25) - 1u)
+
+#define TURNER_NO_INDEX 0xffffffffu
+
+/* ---- geometry ---- */
+/* An id orders hits at equal t: the kind in the two top bits, then the place in the group. */
+#define TURNER_KIND_SPHERE 0u
+#define TURNER_KIND_CONE 1u
+#define TURNER_KIND_TRIANGLE 2u
+#define TURNER_KIND_PLANE 3u /* planes are in no group */
+#define TURNER_KIND_SHIFT 30
+
+/* In the material word of primitives, planes and instances. */
+#define TURNER_MATERIAL_TRANSMISSIVE 0x80000000u /* shadow rays may pass, tinted */
+#define TURNER_MATERIAL_MASK 0x7fffffffu
+
+/* 48 bytes for any primitive, in its group's coordinates:
+ * sphere: a centre, b.x radius; cone: a base, b apex, c.x base radius, c.y apex radius,
+ * c.z 1 if capped; triangle: the corners. */
+TURNER_STRUCT(turner_gpu_primitive)
+{
+    TURNER_VEC3(a);
+    TURNER_VEC3(b);
+    TURNER_VEC3(c);
+    uint id;
+    uint material;
+    uint attributes; /* triangle: index into corners, and the two flags; or TURNER_NO_INDEX */
+};
+#define TURNER_ATTRIBUTES_NORMALS 0x80000000u
+#define TURNER_ATTRIBUTES_UVS 0x40000000u
+#define TURNER_ATTRIBUTES_MASK 0x3fffffffu
+
+/* Vertex indices of a triangle that has normals or uvs, into the scene's normals and uvs. */
+TURNER_STRUCT(turner_gpu_corners)
+{
+    uint vertex[3];
+};
+
+/* Two children a node, 64 bytes. count 0: child is a node; else the first of count primitives
+ * (in the top level: of count instances). An empty child has lo > hi. */
+TURNER_STRUCT(turner_gpu_node)
+{
+    float lo0[3];
+    float hi0[3];
+    float lo1[3];
+    float hi1[3];
+    uint child[2];
+    uint count[2];
+};
+
+/* An instance of a group; instance 0 is the world's own group, with the identity. */
+TURNER_STRUCT(turner_gpu_instance)
+{
+    float to_world[12]; /* 3 rows of 4 */
+    float to_group[12];
+    uint root;          /* bvh: the group's root node */
+    uint triangles;     /* ray_query: the group's first triangle among the primitives */
+    uint boxes;         /* ray_query: its first sphere or cone */
+    uint material;      /* TURNER_NO_INDEX: the primitives' own */
+    float spawn_scale;  /* group units: size of the numbers that world coordinates are made of */
+    uint pad;
+};
+
+TURNER_STRUCT(turner_gpu_plane)
+{
+    TURNER_VEC3(point);
+    TURNER_VEC3(normal);
+    TURNER_VEC3(tangent);
+    uint material;
+};
+
+/* ---- appearance ---- */
+#define TURNER_FRESNEL_KIND_NONE 0u
+#define TURNER_FRESNEL_KIND_SCHLICK 1u
+#define TURNER_FRESNEL_KIND_EXACT 2u
+#define TURNER_FRESNEL_KIND_CONDUCTOR 3u
+#define TURNER_PATTERN_KIND_NONE 0u
+#define TURNER_PATTERN_KIND_CHECKER 1u
+#define TURNER_PATTERN_KIND_IMAGE 2u
+
+TURNER_STRUCT(turner_gpu_material)
+{
+    TURNER_VEC3(k_e);
+    TURNER_VEC3(k_a);
+    TURNER_VEC3(k_d);
+    TURNER_VEC3(k_s);
+    TURNER_VEC3(k_r);
+    TURNER_VEC3(k_t);
+    TURNER_VEC3(eta);
+    TURNER_VEC3(k);
+    TURNER_VEC3(checker0);
+    TURNER_VEC3(checker1);
+    TURNER_VEC2(uv_scale);
+    float exponent;
+    uint fresnel;
+    uint medium;
+    uint pattern;
+    uint image;
+    uint pad;
+};
+
+TURNER_STRUCT(turner_gpu_medium)
+{
+    TURNER_VEC3(absorption);
+    float index;
+};
+
+TURNER_STRUCT(turner_gpu_image)
+{
+    TURNER_ADDRESS texels; /* RGB floats, row 0 at the top */
+    uint width;
+    uint height;
+};
+
+#define TURNER_LIGHT_KIND_DIRECTIONAL 0u
+#define TURNER_LIGHT_KIND_POINT 1u
+#define TURNER_LIGHT_KIND_SPOT 2u
+
+TURNER_STRUCT(turner_gpu_light)
+{
+    TURNER_VEC3(position);
+    TURNER_VEC3(direction); /* the way the light travels */
+    TURNER_VEC3(power);
+    uint kind;
+    uint inverse_square; /* 1 or 0 */
+    float cos_inner;
+    float cos_outer;
+};
+
+#define TURNER_BACKGROUND_KIND_CONSTANT 0u
+#define TURNER_BACKGROUND_KIND_GRADIENT 1u
+#define TURNER_BACKGROUND_KIND_ENVIRONMENT 2u
+
+/* ---- the scene as the kernel sees it ---- */
+TURNER_STRUCT(turner_gpu_scene)
+{
+    TURNER_ADDRESS nodes;
+    TURNER_ADDRESS primitives;
+    TURNER_ADDRESS instances;
+    TURNER_ADDRESS planes;
+    TURNER_ADDRESS corners;
+    TURNER_ADDRESS normals;
+    TURNER_ADDRESS uvs;
+    TURNER_ADDRESS materials;
+    TURNER_ADDRESS media;
+    TURNER_ADDRESS images;
+    TURNER_ADDRESS lights;
+    uint root;          /* of the top level over instances */
+    uint plane_count;
+    uint light_count;
+    uint max_depth;
+    uint max_steps;     /* rays traced for one sample, at most */
+    uint max_visits;    /* nodes visited by one ray, at most */
+    uint max_crossings; /* surfaces one shadow ray passes, at most */
+    uint shading;       /* TURNER_NEEDS_PHONG or TURNER_NEEDS_CONSERVING */
+    uint shadows_tinted;
+    uint spd_rays;
+    float cutoff;
+    TURNER_VEC3(ambient);
+    TURNER_VEC3(eye);
+    TURNER_VEC3(right);   /* one pixel to the right on the plane at distance 1 */
+    TURNER_VEC3(down);    /* one pixel down */
+    TURNER_VEC3(corner);  /* the picture's top left corner on that plane, from the eye */
+    TURNER_UVEC2(inside); /* media list of the eye (media.glsl) */
+    uint background;
+    TURNER_VEC3(background_color);
+    TURNER_VEC3(background_top);
+    TURNER_VEC3(background_up);
+    TURNER_VEC3(background_scale);
+    float background_turn; /* rotation / 2π */
+    uint background_image;
+};
+
+/* ---- one dispatch ---- */
+#define TURNER_COUNT_CAMERA 0
+#define TURNER_COUNT_REFLECTED 1
+#define TURNER_COUNT_REFRACTED 2
+#define TURNER_COUNT_SHADOW 3
+#define TURNER_COUNT_TIR 4         /* reflected rays that total internal reflection sent */
+#define TURNER_COUNT_CAMERA_HITS 5
+#define TURNER_COUNT_UNFINISHED 6  /* samples that ran into max_steps or max_crossings */
+#define TURNER_COUNTS 7
+
+TURNER_STRUCT(turner_gpu_counters)
+{
+    uint low[TURNER_COUNTS];
+    uint high[TURNER_COUNTS];
+    uint largest_depth;
+};
+
+/* Push constants. */
+TURNER_STRUCT(turner_gpu_dispatch)
+{
+    TURNER_ADDRESS scene;
+    TURNER_ADDRESS pixels;   /* tile_width × tile_height × 4 floats: sums of radiance and pruned */
+    TURNER_ADDRESS counters;
+    uint tile_x;             /* the tile's place in the picture */
+    uint tile_y;
+    uint tile_width;
+    uint tile_height;
+    float sample_x;          /* of the pixel, in [0,1) */
+    float sample_y;
+    uint first;              /* 1: the sums start with this sample */
+    uint pad;
+};
+
+#ifndef GL_core_profile
+#undef uint
+#endif
+#endif

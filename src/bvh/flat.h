@@ -1,0 +1,53 @@
+/* A scene as flat arrays the GPU reads (shaders/shared.h), with or without bounding volume
+ * hierarchies of our own. No Vulkan here. */
+#ifndef TURNER_BVH_FLAT_H
+#define TURNER_BVH_FLAT_H
+
+#include "../shaders/shared.h"
+#include "base/result.h"
+#include "scene/scene.h"
+
+enum turner_order {
+    TURNER_ORDER_SAH,   /* binned-SAH BVH2 over each group and over the instances; primitives lie
+                           in leaf order, groups one after another */
+    TURNER_ORDER_MEDIAN /* no nodes; each group's triangles, then its spheres and cones, each in
+                           median-split order: what lavapipe's builder makes good trees of */
+};
+
+/* The primitives of one group among turner_flat.primitives. */
+struct turner_flat_group {
+    uint32_t root;           /* SAH: node; an empty group has an empty node */
+    uint32_t triangles, triangle_count; /* MEDIAN: the range of its triangles */
+    uint32_t boxes, box_count;          /* MEDIAN: the range of its spheres and cones */
+    float lo[3], hi[3];      /* bounds, rounded outwards; lo > hi when empty */
+};
+
+/* Counts are of elements. corners, normals and uvs are empty where no mesh has them; then both
+ * normals and uvs have vertex_count elements if any mesh has the one or the other (zeros where a
+ * mesh lacks it). */
+struct turner_flat {
+    struct turner_gpu_node *nodes;
+    struct turner_gpu_primitive *primitives;
+    struct turner_gpu_instance *instances; /* [0] is the world */
+    struct turner_gpu_corners *corners;
+    float (*normals)[3];
+    float (*uvs)[2];
+    struct turner_flat_group *groups; /* scene->group_count */
+    uint32_t *instance_groups;        /* instance_count: group of each instance */
+    size_t node_count, primitive_count, instance_count, corner_count, vertex_count;
+    uint32_t root;       /* top level's root node */
+    uint32_t max_depth;  /* entries a traversal stack needs, both levels together, with sentinel */
+    uint64_t max_visits; /* nodes and instances one ray can visit, at most */
+};
+
+/* Flattens a valid scene. `threads` is 1 for now or more for groups side by side. Deterministic.
+ * TURNER_DEVICE when memory does not suffice (computed before it is taken). */
+enum turner_result turner_flat_create(struct turner_flat *flat, const struct turner_scene *scene,
+                                      enum turner_order order);
+void turner_flat_destroy(struct turner_flat *flat);
+
+/* Bounds of a primitive in its group, rounded outwards by a few ulps so that every float
+ * intersection that the shaders accept lies inside. */
+void turner_primitive_bounds(float lo[3], float hi[3], const struct turner_gpu_primitive *primitive);
+
+#endif
