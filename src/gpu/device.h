@@ -1,0 +1,111 @@
+/* The Vulkan instance, device and queue; what a device can do; one-time commands.
+ *
+ * One turner_gpu per process at a time, used from one thread. Needs Vulkan 1.3 with
+ * bufferDeviceAddress, shaderInt64 and scalarBlockLayout; ray queries are used where present. */
+#ifndef TURNER_GPU_DEVICE_H
+#define TURNER_GPU_DEVICE_H
+
+#include <vulkan/vulkan.h>
+
+#include "base/result.h"
+
+struct turner_gpu_info {
+    char name[256];
+    char driver[512];  /* driver's name and version, as the driver words it */
+    const char *type;  /* "discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other" */
+    bool software;     /* a CPU pretending */
+    bool usable;       /* has everything turner requires */
+    char lacking[256]; /* what it lacks of that, comma separated; "" when usable */
+    bool ray_query;    /* can trace with VK_KHR_ray_query */
+    char missing[256]; /* what it lacks for that, comma separated; "" when ray_query */
+    bool float64, int64, buffer_device_address, scalar_block_layout;
+    uint32_t subgroup_size;
+    uint32_t max_workgroup_size[3], max_workgroup_invocations, max_workgroup_count[3];
+    uint32_t max_push_constants;   /* bytes */
+    uint64_t max_storage_range;    /* bytes one descriptor reaches; addresses have no such limit */
+    uint64_t max_allocation;       /* bytes of one allocation */
+    uint64_t max_buffer;           /* bytes of one buffer */
+    uint64_t device_memory;        /* bytes of the largest device-local heap */
+    double timestamp_period;       /* nanoseconds per tick; 0 when the queue has no timestamps */
+    uint64_t max_primitives;       /* of one bottom-level acceleration structure; 0 without */
+    uint64_t max_instances;        /* of a top-level one */
+    uint32_t scratch_alignment;    /* bytes */
+};
+
+struct turner_gpu {
+    VkInstance instance;
+    VkDebugUtilsMessengerEXT messenger;
+    VkPhysicalDevice physical;
+    VkDevice device;
+    VkQueue queue;
+    uint32_t queue_family;
+    VkCommandPool pool;
+    VkFence fence; /* of turner_gpu_submit_wait */
+    struct turner_gpu_info info;
+    VkPhysicalDeviceMemoryProperties memory;
+    bool memory_budget; /* VK_EXT_memory_budget is on */
+    bool hung;          /* a submission never ended: nothing of the device can be destroyed */
+    uint64_t memory_used, memory_peak; /* bytes of turner_buffers */
+    /* NULL unless info.ray_query */
+    PFN_vkCreateAccelerationStructureKHR create_acceleration;
+    PFN_vkDestroyAccelerationStructureKHR destroy_acceleration;
+    PFN_vkGetAccelerationStructureBuildSizesKHR get_acceleration_sizes;
+    PFN_vkGetAccelerationStructureDeviceAddressKHR get_acceleration_address;
+    PFN_vkCmdBuildAccelerationStructuresKHR cmd_build_accelerations;
+};
+
+/* Opens a device. `wanted` NULL takes the best usable one (discrete, integrated, virtual, CPU, in
+ * the driver's order among equals); digits are an index into turner_gpu_list; anything else is a
+ * part of the name, upper or lower case.
+ * Environment: TURNER_VALIDATION=1 is the same as `validation`; TURNER_MASK_EXTENSIONS, a comma
+ * separated list of device extensions, pretends the device has none of them (for tests).
+ * With validation each warning or error of VK_LAYER_KHRONOS_validation goes to stderr as
+ * "turner: validation: …" and is counted.
+ * TURNER_DEVICE without a driver, a fitting device or the layer; TURNER_USAGE for an index or name
+ * that no device has. */
+enum turner_result turner_gpu_create(struct turner_gpu *gpu, const char *wanted, bool validation);
+void turner_gpu_destroy(struct turner_gpu *gpu);
+
+/* Every device with a Vulkan driver, usable or not, in the order of its index. The caller frees
+ * *infos. Not while a turner_gpu exists. TURNER_DEVICE without a driver or a device. */
+enum turner_result turner_gpu_list(struct turner_gpu_info **infos, size_t *count);
+
+/* Validation messages so far in this process. Thread-safe. */
+unsigned turner_gpu_validation_count(void);
+
+/* A command buffer that records one submission. */
+enum turner_result turner_gpu_begin(struct turner_gpu *gpu, VkCommandBuffer *commands);
+
+/* Ends, submits and frees `commands` (also on failure) and waits until the device is done; what
+ * shaders wrote to mapped memory can then be read. TURNER_DEVICE when the device is lost or does
+ * not answer for ten minutes. */
+enum turner_result turner_gpu_submit_wait(struct turner_gpu *gpu, VkCommandBuffer commands);
+
+/* Makes everything that shaders and copies of this command buffer wrote so far visible to shaders,
+ * acceleration structure builds and copies recorded after it. */
+void turner_gpu_barrier(VkCommandBuffer commands);
+
+/* "VK_ERROR_DEVICE_LOST" and so on; "VkResult -123" for one that is not known. Never NULL. */
+const char *turner_vk_result_name(VkResult result);
+
+/* turner_fail for a Vulkan call that failed: "vkCreateX: VK_ERROR_… (file.c:12)" plus what to do. */
+enum turner_result turner_vk_fail(VkResult result, const char *call, const char *file, int line);
+
+#define VK_TRY(call)                                                                               \
+    do {                                                                                           \
+        VkResult vk_try_result = (call);                                                           \
+        if (vk_try_result != VK_SUCCESS)                                                           \
+            return turner_vk_fail(vk_try_result, #call, __FILE__, __LINE__);                       \
+    } while (0)
+
+/* The same for functions with one cleanup tail: sets `result` and goes to `done`. */
+#define VK_TRY_DONE(call)                                                                          \
+    do {                                                                                           \
+        VkResult vk_try_result = (call);                                                           \
+        if (vk_try_result != VK_SUCCESS) {                                                         \
+            result = turner_vk_fail(vk_try_result, #call, __FILE__, __LINE__);                     \
+            goto done;                                                                             \
+        }                                                                                          \
+    } while (0)
+
+#endif
