@@ -5,9 +5,9 @@
 #include "turner.h"
 
 #if defined(__GNUC__)
-#define TURNER_PRINTF(format, first) __attribute__((format(printf, format, first)))
+#define TURNER_PRINTF(text, first) __attribute__((format(printf, text, first)))
 #else
-#define TURNER_PRINTF(format, first)
+#define TURNER_PRINTF(text, first)
 #endif
 
 /* Sets this thread's message (turner_message) and returns `result`, so that a failing function
