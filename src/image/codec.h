@@ -1,0 +1,41 @@
+/* What src/image shares between its C files and the one C++ file that speaks to OpenImageIO. */
+#ifndef TURNER_IMAGE_CODEC_H
+#define TURNER_IMAGE_CODEC_H
+
+#include "image/image.h"
+
+enum turner_sample { TURNER_SAMPLE_U8, TURNER_SAMPLE_U16, TURNER_SAMPLE_FLOAT };
+
+/* One format turner writes. */
+struct turner_format {
+    const char *ending; /* of the file's name, with the dot, lower case */
+    const char *codec;  /* OpenImageIO's name of the format */
+    enum turner_sample sample;
+    bool nonfinite; /* the format can hold NaN and infinity */
+};
+
+/* The format for the ending of `path`; NULL and TURNER_USAGE's message when there is none. */
+const struct turner_format *turner_format_find(const char *path);
+
+/* width × height × 3 samples as turner_format says, owned by the caller (free). Applies exposure,
+ * curve and rounding to integer formats. */
+void *turner_format_pack(const struct turner_format *format, const struct turner_image *image,
+                         const struct turner_image_encoding *encoding);
+
+/* Encodes `samples` (turner_format_pack) in memory and writes them with turner_atomic_write. */
+enum turner_result turner_codec_write(const char *path, const struct turner_format *format,
+                                      const void *samples, int width, int height,
+                                      const struct turner_image_encoding *encoding);
+
+/* Creates `image` and reads the first `*channels` ≤ 3 channels into its pixels (integers scaled to
+ * [0,1], `*integer` set); the channels beyond are 0. */
+enum turner_result turner_codec_read(struct turner_image *image, const char *path, int *channels,
+                                     bool *integer);
+
+/* Writes `size` bytes to "<path>.<pid>.part", then renames it. TURNER_OUTPUT. */
+enum turner_result turner_atomic_write(const char *path, const void *bytes, size_t size);
+
+/* Whether turner_atomic_write could create its file. TURNER_OUTPUT. */
+enum turner_result turner_atomic_check(const char *path);
+
+#endif

@@ -1,0 +1,115 @@
+/* From linear floats to what a file holds, and back. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/memory.h"
+#include "image/codec.h"
+
+/* IEC 61966-2-1:1999, 5.2 and 5.3, with the constants of its amendment 1. */
+double turner_srgb_to_linear(double v)
+{
+    double m = fabs(v);
+    return copysign(m <= 0.04045 ? m / 12.92 : pow((m + 0.055) / 1.055, 2.4), v);
+}
+
+double turner_linear_to_srgb(double v)
+{
+    double m = fabs(v);
+    return copysign(m <= 0.0031308 ? m * 12.92 : 1.055 * pow(m, 1 / 2.4) - 0.055, v);
+}
+
+/* Longer endings first. */
+static const struct turner_format formats[] = {
+    {".16.png", "png", TURNER_SAMPLE_U16, false},  {".png", "png", TURNER_SAMPLE_U8, false},
+    {".exr", "openexr", TURNER_SAMPLE_FLOAT, true}, {".hdr", "hdr", TURNER_SAMPLE_FLOAT, false},
+    {".tif", "tiff", TURNER_SAMPLE_FLOAT, true},   {".tiff", "tiff", TURNER_SAMPLE_FLOAT, true},
+    {".jpg", "jpeg", TURNER_SAMPLE_U8, false},     {".jpeg", "jpeg", TURNER_SAMPLE_U8, false},
+    {".ppm", "pnm", TURNER_SAMPLE_U8, false},
+};
+
+const struct turner_format *turner_format_find(const char *path)
+{
+    size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+        size_t ending = strlen(formats[i].ending);
+        /* something must stand before the ending: ".png" is a hidden file without one */
+        if (length > ending && path[length - ending - 1] != '/' &&
+            strcasecmp(path + length - ending, formats[i].ending) == 0)
+            return &formats[i];
+    }
+    turner_fail(TURNER_USAGE,
+                "%s: the ending says no picture format that can be written; use .exr .hdr .tif "
+                "(linear floats), .png .jpg .ppm (8 bit) or .16.png (16 bit)", path);
+    return NULL;
+}
+
+static double encode(float radiance, double scale, bool linear)
+{
+    double v = (double)radiance * scale;
+    if (!isfinite(v))
+        v = isfinite(radiance) ? (radiance > 0 ? 1 : 0) : 0; /* overflow of the exposure is white */
+    v = v < 0 ? 0 : v > 1 ? 1 : v;
+    return linear ? v : turner_linear_to_srgb(v);
+}
+
+void *turner_format_pack(const struct turner_format *format, const struct turner_image *image,
+                         const struct turner_image_encoding *encoding)
+{
+    static const size_t sizes[] = {1, 2, sizeof(float)}; /* by turner_sample */
+    size_t pixels = (size_t)image->width * (size_t)image->height;
+    void *samples = turner_calloc(pixels * 3, sizes[format->sample]);
+    double scale = exp2(encoding->exposure);
+    for (size_t i = 0; i < pixels * 3; i++) {
+        float v = image->rgba[i / 3 * 4 + i % 3];
+        switch (format->sample) {
+        case TURNER_SAMPLE_U8:
+            ((uint8_t *)samples)[i] = (uint8_t)(encode(v, scale, encoding->linear) * 255 + .5);
+            break;
+        case TURNER_SAMPLE_U16:
+            ((uint16_t *)samples)[i] = (uint16_t)(encode(v, scale, encoding->linear) * 65535 + .5);
+            break;
+        case TURNER_SAMPLE_FLOAT:
+            ((float *)samples)[i] = isfinite(v) || format->nonfinite ? v : 0;
+            break;
+        }
+    }
+    return samples;
+}
+
+enum turner_result turner_image_write(const struct turner_image *image, const char *path,
+                                      const struct turner_image_encoding *encoding)
+{
+    const struct turner_format *format = turner_format_find(path);
+    if (!format)
+        return TURNER_USAGE;
+    void *samples = turner_format_pack(format, image, encoding);
+    enum turner_result result =
+        turner_codec_write(path, format, samples, image->width, image->height, encoding);
+    free(samples);
+    return result;
+}
+
+enum turner_result turner_image_check_writable(const char *path)
+{
+    return turner_format_find(path) ? turner_atomic_check(path) : TURNER_USAGE;
+}
+
+enum turner_result turner_image_read(struct turner_image *image, const char *path, bool srgb)
+{
+    int channels;
+    bool integer;
+    TURNER_TRY(turner_codec_read(image, path, &channels, &integer));
+    size_t pixels = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < pixels; i++) {
+        float *p = image->rgba + i * 4;
+        if (integer && srgb) {
+            for (int c = 0; c < channels; c++)
+                p[c] = (float)turner_srgb_to_linear((double)p[c]);
+        }
+        if (channels == 1)
+            p[1] = p[2] = p[0];
+    }
+    return TURNER_OK;
+}
