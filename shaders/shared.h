@@ -8,15 +8,13 @@
 #define TURNER_STRUCT(name) struct name
 #define TURNER_VEC2(name) vec2 name
 #define TURNER_VEC3(name) vec3 name
-#define TURNER_UVEC2(name) uvec2 name
-#define TURNER_ADDRESS uint64_t
+#define TURNER_UINT64 uint64_t
 #else
 #include <stdint.h>
 #define TURNER_STRUCT(name) struct name
 #define TURNER_VEC2(name) float name[2]
 #define TURNER_VEC3(name) float name[3]
-#define TURNER_UVEC2(name) uint32_t name[2]
-#define TURNER_ADDRESS uint64_t
+#define TURNER_UINT64 uint64_t
 #define uint uint32_t
 #endif
 
@@ -162,7 +160,7 @@ TURNER_STRUCT(turner_gpu_medium)
 
 TURNER_STRUCT(turner_gpu_image)
 {
-    TURNER_ADDRESS texels; /* RGB floats, row 0 at the top */
+    TURNER_UINT64 texels; /* RGB floats, row 0 at the top */
     uint width;
     uint height;
 };
@@ -189,17 +187,18 @@ TURNER_STRUCT(turner_gpu_light)
 /* ---- the scene as the kernel sees it ---- */
 TURNER_STRUCT(turner_gpu_scene)
 {
-    TURNER_ADDRESS nodes;
-    TURNER_ADDRESS primitives;
-    TURNER_ADDRESS instances;
-    TURNER_ADDRESS planes;
-    TURNER_ADDRESS corners;
-    TURNER_ADDRESS normals;
-    TURNER_ADDRESS uvs;
-    TURNER_ADDRESS materials;
-    TURNER_ADDRESS media;
-    TURNER_ADDRESS images;
-    TURNER_ADDRESS lights;
+    TURNER_UINT64 nodes;
+    TURNER_UINT64 primitives;
+    TURNER_UINT64 instances;
+    TURNER_UINT64 planes;
+    TURNER_UINT64 corners;
+    TURNER_UINT64 normals;
+    TURNER_UINT64 uvs;
+    TURNER_UINT64 materials;
+    TURNER_UINT64 media;
+    TURNER_UINT64 images;
+    TURNER_UINT64 lights;
+    TURNER_UINT64 inside; /* media list of the eye (media.glsl) */
     uint root;          /* of the top level over instances */
     uint plane_count;
     uint light_count;
@@ -216,7 +215,6 @@ TURNER_STRUCT(turner_gpu_scene)
     TURNER_VEC3(right);   /* one pixel to the right on the plane at distance 1 */
     TURNER_VEC3(down);    /* one pixel down */
     TURNER_VEC3(corner);  /* the picture's top left corner on that plane, from the eye */
-    TURNER_UVEC2(inside); /* media list of the eye (media.glsl) */
     uint background;
     TURNER_VEC3(background_color);
     TURNER_VEC3(background_top);
@@ -246,9 +244,9 @@ TURNER_STRUCT(turner_gpu_counters)
 /* Push constants. */
 TURNER_STRUCT(turner_gpu_dispatch)
 {
-    TURNER_ADDRESS scene;
-    TURNER_ADDRESS pixels;   /* tile_width × tile_height × 4 floats: sums of radiance and pruned */
-    TURNER_ADDRESS counters;
+    TURNER_UINT64 scene;
+    TURNER_UINT64 pixels;   /* tile_width × tile_height × 4 floats: sums of radiance and pruned */
+    TURNER_UINT64 counters;
     uint tile_x;             /* the tile's place in the picture */
     uint tile_y;
     uint tile_width;

@@ -1,0 +1,86 @@
+// The media a ray is inside of: a list of at most eight in one 64-bit word, eight bits each, medium
+// index + 1 (0 is empty), highest first. Media are sorted by rank (src/scene/scene.h), so the
+// lowest byte is the medium the ray travels in. A medium stands there as often as it was entered.
+
+const uint OUTSIDE = 0u;
+
+uint media_slot(uint64_t list, uint place)
+{
+    return uint(list >> (8u * place)) & 255u;
+}
+
+// The medium travelled in (index + 1), or OUTSIDE.
+uint media_current(uint64_t list)
+{
+    return media_slot(list, 0u);
+}
+
+uint64_t media_add(uint64_t list, uint medium)
+{
+    uint place = 0u;
+    while (place < 8u && media_slot(list, place) >= medium)
+        place++;
+    if (place == 8u)
+        return list; // full of higher ones: the lowest is dropped
+    uint64_t above = (1ul << (8u * place)) - 1ul;
+    return (list & above) | (uint64_t(medium) << (8u * place)) | ((list & ~above) << 8u);
+}
+
+// The list without one `medium`; the list as it is when there is none.
+uint64_t media_remove(uint64_t list, uint medium)
+{
+    for (uint place = 0u; place < 8u; place++) {
+        if (media_slot(list, place) == medium) {
+            uint64_t above = (1ul << (8u * place)) - 1ul;
+            return (list & above) | ((list >> 8u) & ~above);
+        }
+    }
+    return list;
+}
+
+bool media_contains(uint64_t list, uint medium)
+{
+    bool found = false;
+    for (uint place = 0u; place < 8u; place++)
+        found = found || media_slot(list, place) == medium;
+    return found;
+}
+
+// Crossing the boundary of a medium: the lists on the side the ray comes from and beyond. The
+// surface is none when both travel in the same medium.
+struct crossing_t {
+    uint64_t before, after;
+    bool real;
+};
+
+crossing_t media_cross(uint64_t list, uint medium, bool entering)
+{
+    crossing_t crossing;
+    if (entering) {
+        crossing.before = list;
+        crossing.after = media_add(list, medium);
+    } else {
+        // leaving what was never entered counts as having been inside
+        crossing.before = media_contains(list, medium) ? list : media_add(list, medium);
+        crossing.after = media_remove(crossing.before, medium);
+    }
+    crossing.real = media_current(crossing.before) != media_current(crossing.after);
+    return crossing;
+}
+
+float media_index(uint64_t list)
+{
+    uint medium = media_current(list);
+    return medium == OUTSIDE ? 1.0 : medium_array(scene.media).at[medium - 1u].index;
+}
+
+// Beer–Lambert: what is left of light after `distance` (may be INFINITY) in the current medium.
+vec3 media_transmittance(uint64_t list, float distance)
+{
+    uint medium = media_current(list);
+    if (!NEEDS_ANY(TURNER_NEEDS_ABSORPTION) || medium == OUTSIDE)
+        return vec3(1.0);
+    vec3 absorption = medium_array(scene.media).at[medium - 1u].absorption;
+    // a channel without absorption stays 1 over any distance, also an infinite one
+    return mix(exp(-absorption * distance), vec3(1.0), equal(absorption, vec3(0.0)));
+}

@@ -1,0 +1,43 @@
+// The device's acceleration structures (VK_KHR_ray_query). Triangles and boxes are offered as
+// candidates and intersected by our own routines, so that both traversals see the same hits. One
+// query variable and one place that proceeds: lavapipe inlines the walk there.
+
+layout(set = 0, binding = TURNER_BINDING_TLAS) uniform accelerationStructureEXT tlas;
+
+void traverse(inout search_t search, ray_t ray)
+{
+    instance_array instances = instance_array(scene.instances);
+    rayQueryEXT query;
+    rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, 0xff, ray.origin, 0.0,
+                          ray.direction, search.hit.t);
+    shear_t shear = shear_of(ray.direction);
+    uint sheared = 0u; // the instance that `shear` belongs to; 0, the world, has the identity
+    for (uint visit = 0; visit < scene.max_visits && rayQueryProceedEXT(query); visit++) {
+        bool triangle = rayQueryGetIntersectionTypeEXT(query, false) ==
+                        gl_RayQueryCandidateIntersectionTriangleEXT;
+        uint instance = rayQueryGetIntersectionInstanceCustomIndexEXT(query, false);
+        uint first = triangle ? instances.at[instance].triangles : instances.at[instance].boxes;
+        uint index = first + rayQueryGetIntersectionPrimitiveIndexEXT(query, false);
+        vec3 origin = ray.origin, direction = ray.direction;
+        uint override_material = TURNER_NO_INDEX;
+        if (NEEDS_ANY(TURNER_NEEDS_INSTANCES)) {
+            origin = transform_point(instances.at[instance].to_group, ray.origin);
+            direction = transform_vector(instances.at[instance].to_group, ray.direction);
+            override_material = instances.at[instance].material;
+            if (instance != sheared) {
+                shear = shear_of(direction);
+                sheared = instance;
+            }
+        }
+        float before = search.hit.t;
+        intersect_primitive(search, index, instance, override_material, origin, direction, shear);
+        if (search.blocked) {
+            rayQueryTerminateEXT(query);
+        } else if (search.hit.t < before) {
+            if (triangle)
+                rayQueryConfirmIntersectionEXT(query);
+            else
+                rayQueryGenerateIntersectionEXT(query, search.hit.t);
+        }
+    }
+}

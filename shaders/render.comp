@@ -1,0 +1,70 @@
+#version 460
+// The renderer's only kernel: one sample of every pixel of a tile. Read on in whitted.glsl.
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#ifdef TURNER_RAY_QUERY
+#extension GL_EXT_ray_query : require
+#endif
+
+#include "scene.glsl"
+#include "whitted.glsl"
+#include "camera.glsl"
+
+layout(local_size_x = TURNER_WORKGROUP * TURNER_WORKGROUP) in;
+
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer pixel_array
+{
+    vec4 at[];
+};
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer counter_block
+{
+    turner_gpu_counters the;
+};
+
+// Place of a lane in its 8×8 block along a Morton curve: neighbours in a subgroup are neighbours in
+// the picture.
+uvec2 morton(uint i)
+{
+    return uvec2((i & 1u) | ((i >> 1) & 2u) | ((i >> 2) & 4u),
+                 ((i >> 1) & 1u) | ((i >> 2) & 2u) | ((i >> 3) & 4u));
+}
+
+void add_counts(turner_gpu_counters counts)
+{
+    counter_block total = counter_block(dispatch.counters);
+    for (uint kind = 0u; kind < TURNER_COUNTS; kind++) {
+        uint sum = subgroupAdd(counts.low[kind]);
+        if (subgroupElect() && sum > 0u) {
+            uint before = atomicAdd(total.the.low[kind], sum);
+            if (before + sum < before)
+                atomicAdd(total.the.high[kind], 1u);
+        }
+    }
+    uint depth = subgroupMax(counts.largest_depth);
+    if (subgroupElect())
+        atomicMax(total.the.largest_depth, depth);
+}
+
+void main()
+{
+    uvec2 pixel = gl_WorkGroupID.xy * TURNER_WORKGROUP + morton(gl_LocalInvocationIndex);
+    turner_gpu_counters counts;
+    for (uint kind = 0u; kind < TURNER_COUNTS; kind++)
+        counts.low[kind] = 0u;
+    counts.largest_depth = 0u;
+
+    if (pixel.x < dispatch.tile_width && pixel.y < dispatch.tile_height) {
+        vec2 position = vec2(uvec2(dispatch.tile_x, dispatch.tile_y) + pixel) +
+                        vec2(dispatch.sample_x, dispatch.sample_y);
+        vec4 result = whitted(camera_ray(position), counts);
+        pixel_array pixels = pixel_array(dispatch.pixels);
+        uint index = pixel.y * dispatch.tile_width + pixel.x;
+        pixels.at[index] = dispatch.first != 0u ? result : pixels.at[index] + result;
+    }
+    add_counts(counts);
+}

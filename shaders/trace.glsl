@@ -1,0 +1,81 @@
+// One ray against the whole scene. There is a single call of trace() in the kernel: the traversal
+// is inlined where it is called, and the ray-query kind keeps a stack for each place.
+//
+// For shadow rays the walk may end at the first opaque surface; of transmissive ones the nearest
+// is kept. `blocked` says that an opaque one was met.
+#include "sphere.glsl"
+#include "cone.glsl"
+#include "triangle.glsl"
+#include "plane.glsl"
+
+struct search_t {
+    hit_t hit;    // the nearest so far; hit.t starts as the ray's t_max
+    bool found;
+    bool shadow;
+    bool blocked; // shadow ray met an opaque surface: nothing more to find
+};
+
+// Takes a candidate at t if it beats the nearest so far; equal t goes to the one that comes first.
+void consider(inout search_t search, float t, uint id, uint primitive, uint instance,
+              vec2 coordinates, uint material)
+{
+    bool nearer = t < search.hit.t;
+    bool tied = t == search.hit.t && search.found &&
+                comes_before(instance, id, search.hit.instance, search.hit.id);
+    if (!(nearer || tied))
+        return;
+    search.hit = hit_t(t, id, primitive, instance, coordinates);
+    search.found = true;
+    if (search.shadow && (!NEEDS_ANY(TURNER_NEEDS_TINTED) ||
+                          (material & TURNER_MATERIAL_TRANSMISSIVE) == 0u))
+        search.blocked = true;
+}
+
+// Intersects one primitive of a group; `origin` and `direction` are in the group's coordinates.
+void intersect_primitive(inout search_t search, uint index, uint instance, uint override_material,
+                         vec3 origin, vec3 direction, shear_t shear)
+{
+    turner_gpu_primitive p = primitive_array(scene.primitives).at[index];
+    uint kind = p.id >> TURNER_KIND_SHIFT;
+    float t = INFINITY;
+    vec2 coordinates = vec2(0.0);
+    if (NEEDS_ANY(TURNER_NEEDS_SPHERES) && kind == TURNER_KIND_SPHERE)
+        t = intersect_sphere(origin, direction, p.a, p.b.x);
+    if (NEEDS_ANY(TURNER_NEEDS_CONES) && kind == TURNER_KIND_CONE)
+        t = intersect_cone(origin, direction, p.a, p.b, p.c.x, p.c.y, p.c.z != 0.0, coordinates.x);
+    if (NEEDS_ANY(TURNER_NEEDS_TRIANGLES) && kind == TURNER_KIND_TRIANGLE)
+        t = intersect_triangle(origin, shear, p.a, p.b, p.c, coordinates);
+    uint material = NEEDS_ANY(TURNER_NEEDS_INSTANCES) && override_material != TURNER_NO_INDEX
+                        ? override_material : p.material;
+    consider(search, t, p.id, index, instance, coordinates, material);
+}
+
+#ifdef TURNER_RAY_QUERY
+#include "ray_query.glsl"
+#else
+#include "bvh.glsl"
+#endif
+
+void intersect_planes(inout search_t search, ray_t ray)
+{
+    plane_array planes = plane_array(scene.planes);
+    for (uint i = 0; i < scene.plane_count && !search.blocked; i++) {
+        float t = intersect_plane(ray.origin, ray.direction, planes.at[i].point, planes.at[i].normal);
+        consider(search, t, (TURNER_KIND_PLANE << TURNER_KIND_SHIFT) | i, i, 0u, vec2(0.0),
+                 planes.at[i].material);
+    }
+}
+
+search_t trace(ray_t ray, bool shadow)
+{
+    search_t search;
+    search.hit = hit_t(ray.t_max, 0u, 0u, 0u, vec2(0.0));
+    search.found = false;
+    search.shadow = shadow;
+    search.blocked = false;
+    if (NEEDS_ANY(TURNER_NEEDS_PLANES))
+        intersect_planes(search, ray);
+    if (!search.blocked)
+        traverse(search, ray);
+    return search;
+}
