@@ -9,7 +9,7 @@
 struct turner_reference_statistics {
     uint64_t camera_rays, reflected_rays, refracted_rays, shadow_rays;
     uint64_t tir_rays;       /* reflected rays that total internal reflection sent (in reflected) */
-    uint64_t camera_hits;    /* camera rays that hit anything */
+    uint64_t camera_hits;    /* camera rays that hit a surface (one that is none does not count) */
     int largest_depth;       /* of a ray that was followed */
 };
 
@@ -17,10 +17,13 @@ struct turner_reference_statistics {
  * (TURNER_INTERRUPTED). May be NULL. */
 typedef bool (*turner_progress)(double share, void *user);
 
-/* Renders scene->settings.width × height into a created image; the fourth channel is `pruned`.
- * `threads` 0 means one per core. The result does not depend on it. */
-enum turner_result turner_reference_render(struct turner_image *image, const struct turner_scene *scene,
-                                           int threads, struct turner_reference_statistics *statistics,
+/* Creates `image`, scene->settings.width × height, and renders into it; the fourth channel is
+ * `pruned`. `threads` 0 means one per core; the result does not depend on it. `statistics` may be
+ * NULL. After a failure there is no image. TURNER_DEVICE: not enough memory or threads;
+ * TURNER_INTERRUPTED: `progress` said so. The caller destroys the image. */
+enum turner_result turner_reference_render(struct turner_image *image,
+                                           const struct turner_scene *scene, int threads,
+                                           struct turner_reference_statistics *statistics,
                                            turner_progress progress, void *user);
 
 /* Radiance along one ray from `origin` (outside all media but camera.inside), in double: for

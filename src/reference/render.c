@@ -1,0 +1,245 @@
+#include "reference/reference.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "reference/trace.h"
+
+/* ---- camera ---- */
+
+struct view {
+    turner_vector from, u, v, w;
+    turner_real spacing; /* of samples in the plane at distance 1 */
+    turner_real half_width, half_height;
+};
+
+static struct view view_of(const struct turner_scene *scene)
+{
+    const struct turner_camera *camera = &scene->camera;
+    const struct turner_settings *settings = &scene->settings;
+    struct view view = {.from = widen(camera->from),
+                        .half_width = settings->width / 2.0L,
+                        .half_height = settings->height / 2.0L};
+    view.w = normalize(sub(widen(camera->from), widen(camera->at)));
+    view.u = normalize(cross(widen(camera->up), view.w));
+    view.v = cross(view.w, view.u);
+    int rows = settings->spd_grid ? settings->height - 2 : settings->height;
+    view.spacing = 2 * tanl((turner_real)camera->vfov / 2) / rows;
+    return view;
+}
+
+static turner_vector view_direction(const struct view *view, turner_real px, turner_real py)
+{
+    turner_real x = (px - view->half_width) * view->spacing;
+    turner_real y = (view->half_height - py) * view->spacing;
+    return normalize(sub(add(scale(view->u, x), scale(view->v, y)), view->w));
+}
+
+/* ---- work shared between threads ---- */
+
+struct job {
+    const struct turner_world *world;
+    struct turner_image *image;
+    struct view view;
+    atomic_int next_row;
+    atomic_bool stop;
+    pthread_mutex_t mutex; /* guards what follows */
+    pthread_cond_t changed;
+    int rows_done, workers;
+    struct turner_reference_statistics statistics;
+};
+
+static void render_row(struct job *job, struct turner_tracer *tracer, int row)
+{
+    const struct turner_settings *settings = &job->world->scene->settings;
+    for (int column = 0; column < settings->width; column++) {
+        turner_vector sum = grey(0);
+        tracer->pruned = 0;
+        for (int i = 0; i < settings->spp; i++) {
+            double sx, sy;
+            turner_sample_position(&sx, &sy, i, settings->spp);
+            turner_vector d = view_direction(&job->view, column + (turner_real)sx,
+                                             row + (turner_real)sy);
+            sum = add(sum, turner_trace_camera(tracer, job->view.from, d));
+        }
+        float *rgba = job->image->rgba + 4 * ((size_t)row * (size_t)settings->width +
+                                              (size_t)column);
+        rgba[0] = (float)(sum.x / settings->spp);
+        rgba[1] = (float)(sum.y / settings->spp);
+        rgba[2] = (float)(sum.z / settings->spp);
+        rgba[3] = (float)(tracer->pruned / settings->spp);
+    }
+}
+
+static void add_statistics(struct turner_reference_statistics *sum,
+                           const struct turner_reference_statistics *part)
+{
+    sum->camera_rays += part->camera_rays;
+    sum->reflected_rays += part->reflected_rays;
+    sum->refracted_rays += part->refracted_rays;
+    sum->shadow_rays += part->shadow_rays;
+    sum->tir_rays += part->tir_rays;
+    sum->camera_hits += part->camera_hits;
+    if (part->largest_depth > sum->largest_depth)
+        sum->largest_depth = part->largest_depth;
+}
+
+static void *work(void *argument)
+{
+    struct job *job = argument;
+    struct turner_tracer tracer = {.world = job->world};
+    while (!atomic_load(&job->stop)) {
+        int row = atomic_fetch_add(&job->next_row, 1);
+        if (row >= job->image->height)
+            break;
+        render_row(job, &tracer, row);
+        pthread_mutex_lock(&job->mutex);
+        job->rows_done++;
+        pthread_cond_signal(&job->changed);
+        pthread_mutex_unlock(&job->mutex);
+    }
+    pthread_mutex_lock(&job->mutex);
+    add_statistics(&job->statistics, &tracer.statistics);
+    job->workers--;
+    pthread_cond_signal(&job->changed);
+    pthread_mutex_unlock(&job->mutex);
+    return NULL;
+}
+
+/* Starts a thread whose stack holds a recursion of that depth (a level takes about 3 KiB, several
+ * times that under AddressSanitizer). */
+static int start(pthread_t *thread, int depth, void *(*run)(void *), void *argument)
+{
+    pthread_attr_t attributes;
+    int error = pthread_attr_init(&attributes);
+    if (error)
+        return error;
+    error = pthread_attr_setstacksize(&attributes, (1u << 20) + (size_t)(depth + 1) * (32u << 10));
+    if (!error)
+        error = pthread_create(thread, &attributes, run, argument);
+    pthread_attr_destroy(&attributes);
+    return error;
+}
+
+/* Waits for the workers and reports how far they are. */
+static void watch(struct job *job, turner_progress progress, void *user)
+{
+    int reported = 0;
+    pthread_mutex_lock(&job->mutex);
+    for (;;) {
+        if (progress && job->rows_done > reported && !atomic_load(&job->stop)) {
+            reported = job->rows_done;
+            pthread_mutex_unlock(&job->mutex);
+            if (!progress((double)reported / job->image->height, user))
+                atomic_store(&job->stop, true);
+            pthread_mutex_lock(&job->mutex);
+        } else if (job->workers > 0) {
+            pthread_cond_wait(&job->changed, &job->mutex);
+        } else {
+            break;
+        }
+    }
+    pthread_mutex_unlock(&job->mutex);
+}
+
+static int thread_count(int asked, int rows)
+{
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    int count = asked > 0 ? asked : cores > 0 ? (int)cores : 1;
+    return count < rows ? count : rows;
+}
+
+enum turner_result turner_reference_render(struct turner_image *image,
+                                           const struct turner_scene *scene, int threads,
+                                           struct turner_reference_statistics *statistics,
+                                           turner_progress progress, void *user)
+{
+    struct turner_world world = {0};
+    pthread_t *handles = NULL;
+    enum turner_result result = TURNER_OK;
+    int started = 0;
+    *image = (struct turner_image){0};
+    TURNER_TRY_DONE(turner_world_create(&world, scene));
+    TURNER_TRY_DONE(turner_image_create(image, scene->settings.width, scene->settings.height));
+
+    struct job job = {.world = &world, .image = image, .view = view_of(scene)};
+    threads = thread_count(threads, image->height);
+    handles = turner_calloc((size_t)threads, sizeof *handles);
+    pthread_mutex_init(&job.mutex, NULL);
+    pthread_cond_init(&job.changed, NULL);
+    for (; started < threads; started++) {
+        pthread_mutex_lock(&job.mutex);
+        job.workers++;
+        pthread_mutex_unlock(&job.mutex);
+        if (start(&handles[started], scene->settings.depth, work, &job)) {
+            pthread_mutex_lock(&job.mutex);
+            job.workers--;
+            pthread_mutex_unlock(&job.mutex);
+            break; /* fewer threads do the same work */
+        }
+    }
+    watch(&job, progress, user);
+    for (int i = 0; i < started; i++)
+        pthread_join(handles[i], NULL);
+    pthread_cond_destroy(&job.changed);
+    pthread_mutex_destroy(&job.mutex);
+
+    if (started == 0)
+        result = turner_fail(TURNER_DEVICE, "cannot start a thread for the reference tracer; "
+                                            "raise the limit of processes or memory");
+    else if (atomic_load(&job.stop))
+        result = turner_fail(TURNER_INTERRUPTED, "rendering was stopped");
+    if (statistics)
+        *statistics = job.statistics;
+done:
+    if (result != TURNER_OK)
+        turner_image_destroy(image);
+    free(handles);
+    turner_world_destroy(&world);
+    return result;
+}
+
+/* ---- one ray ---- */
+
+struct probe {
+    struct turner_tracer tracer;
+    turner_vector origin, direction, radiance;
+};
+
+static void *run_probe(void *argument)
+{
+    struct probe *probe = argument;
+    probe->radiance =
+        turner_trace_camera(&probe->tracer, probe->origin, normalize(probe->direction));
+    return NULL;
+}
+
+enum turner_result turner_reference_radiance(struct turner_vec3 *radiance, double *pruned,
+                                             const struct turner_scene *scene,
+                                             struct turner_vec3 origin,
+                                             struct turner_vec3 direction)
+{
+    struct turner_world world = {0};
+    enum turner_result result = TURNER_OK;
+    TURNER_TRY_DONE(turner_world_create(&world, scene));
+    struct probe probe = {.tracer = {.world = &world},
+                          .origin = widen(origin),
+                          .direction = widen(direction)};
+    pthread_t thread;
+    if (start(&thread, scene->settings.depth, run_probe, &probe)) {
+        result = turner_fail(TURNER_DEVICE, "cannot start a thread for the reference tracer; "
+                                            "raise the limit of processes or memory");
+        goto done;
+    }
+    pthread_join(thread, NULL);
+    *radiance = turner_vec3_of((double)probe.radiance.x, (double)probe.radiance.y,
+                               (double)probe.radiance.z);
+    if (pruned)
+        *pruned = (double)probe.tracer.pruned;
+done:
+    turner_world_destroy(&world);
+    return result;
+}

@@ -1,0 +1,228 @@
+#include "reference/trace.h"
+
+#include "reference/fresnel.h"
+#include "reference/light.h"
+#include "reference/texture.h"
+
+/* A hit as shading sees it: normals on the viewer's side. */
+struct shading_point {
+    struct turner_surface surface;
+    const struct turner_material *material;
+    turner_vector v, ng, ns;
+    bool outside;                /* the viewer is on the side that the geometric normal points to */
+    struct turner_media media;   /* on the viewer's side */
+    struct turner_media beyond;  /* on the other side, where the material transmits */
+};
+
+enum secondary_kind { REFLECTED, REFLECTED_TOTALLY, REFRACTED };
+
+static turner_vector trace(struct turner_tracer *tracer, struct turner_ray ray,
+                           struct turner_media media, int depth, turner_vector weight);
+
+static bool transmits(const struct turner_material *material)
+{
+    return material->k_t.x > 0 || material->k_t.y > 0 || material->k_t.z > 0;
+}
+
+/* Fills `point` for a hit of a ray that travels in `media`. */
+static void meet(struct shading_point *point, const struct turner_tracer *tracer,
+                 const struct turner_ray *ray, const struct turner_hit *hit,
+                 const struct turner_media *media)
+{
+    struct turner_surface *surface = &point->surface;
+    turner_world_surface(surface, tracer->world, ray, hit);
+    point->material = &tracer->world->scene->materials[surface->material];
+    point->v = negate(ray->direction);
+    point->outside = dot(surface->ng, point->v) >= 0;
+    point->ng = point->outside ? surface->ng : negate(surface->ng);
+    point->ns = dot(surface->ns, point->ng) >= 0 ? surface->ns : negate(surface->ns);
+    point->media = point->beyond = *media;
+    if (transmits(point->material)) {
+        turner_media_cross(&point->beyond, &point->media, point->material->medium,
+                           point->outside);
+    }
+}
+
+/* A surface with the same medium on both sides is none. */
+static bool is_none(const struct shading_point *point)
+{
+    return transmits(point->material) &&
+           turner_media_current(&point->media) == turner_media_current(&point->beyond);
+}
+
+/* ---- local illumination ---- */
+
+/* S: what reaches the point from `distance` away along `l`. */
+static turner_vector shadow(struct turner_tracer *tracer, const struct shading_point *from,
+                            turner_vector l, turner_real distance)
+{
+    const struct turner_scene *scene = tracer->world->scene;
+    bool viewer_side = dot(l, from->ng) >= 0;
+    struct turner_ray ray =
+        turner_surface_leave(&from->surface, l, viewer_side == from->outside);
+    tracer->statistics.shadow_rays++;
+    if (scene->settings.shadows == TURNER_SHADOWS_OPAQUE)
+        return grey(turner_world_occluded(tracer->world, &ray, distance) ? 0 : 1);
+
+    turner_vector through = grey(1);
+    struct turner_media media = from->media;
+    struct turner_hit hit;
+    while (turner_world_intersect(&hit, tracer->world, &ray, distance)) {
+        struct shading_point point;
+        meet(&point, tracer, &ray, &hit, &media);
+        if (!transmits(point.material))
+            return grey(0);
+        through = mul(through, turner_media_transmittance(&point.media, scene, hit.t));
+        if (!is_none(&point))
+            through = mul(through, widen(point.material->k_t));
+        if (largest(through) == 0)
+            return grey(0);
+        ray = turner_surface_leave(&point.surface, l, !point.outside);
+        media = point.beyond;
+        distance -= hit.t;
+    }
+    return mul(through, turner_media_transmittance(&media, scene, distance));
+}
+
+static turner_vector local_illumination(struct turner_tracer *tracer,
+                                        const struct shading_point *point)
+{
+    const struct turner_scene *scene = tracer->world->scene;
+    const struct turner_material *material = point->material;
+    turner_vector color =
+        turner_pattern_color(scene, material, point->surface.u, point->surface.v);
+    turner_vector radiance =
+        add(widen(material->k_e), mul(mul(widen(material->k_a), color), widen(scene->ambient)));
+
+    for (size_t j = 0; j < scene->light_count; j++) {
+        struct turner_illumination light =
+            turner_light_arrive(&scene->lights[j], point->surface.p);
+        if (largest(light.irradiance) <= 0 || dot(point->ns, light.direction) <= 0)
+            continue;
+        turner_vector s = shadow(tracer, point, light.direction, light.distance);
+        turner_vector f = turner_phong(material, scene->settings.shading, color, point->ns,
+                                       point->v, light.direction);
+        radiance = add(radiance, mul(mul(s, light.irradiance), f));
+    }
+    return radiance;
+}
+
+/* ---- secondary rays ---- */
+
+/* Where the mirror direction of V goes; never below the geometric surface. */
+static turner_vector mirror_direction(const struct shading_point *point)
+{
+    turner_vector r = sub(scale(point->ns, 2 * dot(point->ns, point->v)), point->v);
+    turner_real above = dot(r, point->ng);
+    return normalize(above < 0 ? sub(r, scale(point->ng, 2 * above)) : r);
+}
+
+/* Snell's law; never above the geometric surface. */
+static turner_vector refracted_direction(const struct shading_point *point, turner_real n1,
+                                         turner_real n2)
+{
+    turner_real eta = n1 / n2, c = dot(point->ns, point->v);
+    turner_real ct = sqrtl(fmaxl(0, turner_cosine2_refracted(n1, n2, c)));
+    turner_vector t = add(scale(point->v, -eta), scale(point->ns, eta * c - ct));
+    turner_real above = dot(t, point->ng);
+    return normalize(above > 0 ? sub(t, scale(point->ng, 2 * above)) : t);
+}
+
+/* The radiance of a secondary ray, or 0 and a note in `pruned` where the recursion stops. */
+static turner_vector follow(struct turner_tracer *tracer, const struct shading_point *point,
+                            enum secondary_kind kind, turner_vector direction, int depth,
+                            turner_vector weight)
+{
+    const struct turner_settings *settings = &tracer->world->scene->settings;
+    struct turner_reference_statistics *statistics = &tracer->statistics;
+    if (depth > settings->depth || largest(weight) < settings->cutoff) {
+        tracer->pruned += largest(weight);
+        return grey(0);
+    }
+    if (kind == REFRACTED)
+        statistics->refracted_rays++;
+    else
+        statistics->reflected_rays++;
+    if (kind == REFLECTED_TOTALLY)
+        statistics->tir_rays++;
+    bool outward = kind == REFRACTED ? !point->outside : point->outside;
+    return trace(tracer, turner_surface_leave(&point->surface, direction, outward),
+                 kind == REFRACTED ? point->beyond : point->media, depth, weight);
+}
+
+static turner_vector secondary_radiance(struct turner_tracer *tracer,
+                                        const struct shading_point *point, int depth,
+                                        turner_vector weight)
+{
+    const struct turner_scene *scene = tracer->world->scene;
+    turner_real n1 = turner_media_index(&point->media, scene);
+    turner_real n2 = turner_media_index(&point->beyond, scene);
+    struct turner_secondary w =
+        turner_secondary_weights(point->material, n1, n2, dot(point->ns, point->v));
+    turner_vector w_r = mul(weight, w.reflected), w_t = mul(weight, w.refracted);
+
+    /* The SPD's counts take every glass for a mirror too, and know no weight. */
+    bool spd = scene->settings.spd_rays;
+    bool reflect = spd ? largest(w.reflected) > 0 || transmits(point->material)
+                       : largest(w_r) > 0;
+    bool refract = spd ? largest(w.refracted) > 0 : largest(w_t) > 0;
+
+    turner_vector radiance = grey(0);
+    if (reflect) {
+        turner_vector incoming = follow(tracer, point, w.total ? REFLECTED_TOTALLY : REFLECTED,
+                                        mirror_direction(point), depth + 1, w_r);
+        radiance = add(radiance, mul(w.reflected, incoming));
+    }
+    if (refract) {
+        turner_vector incoming = follow(tracer, point, REFRACTED,
+                                        refracted_direction(point, n1, n2), depth + 1, w_t);
+        radiance = add(radiance, mul(w.refracted, incoming));
+    }
+    return radiance;
+}
+
+/* ---- the recursion ---- */
+
+/* Radiance along a ray that travels in `media` and whose share of the pixel is `weight`. */
+static turner_vector trace(struct turner_tracer *tracer, struct turner_ray ray,
+                           struct turner_media media, int depth, turner_vector weight)
+{
+    const struct turner_scene *scene = tracer->world->scene;
+    turner_vector through = grey(1); /* what absorption leaves on the way to the point */
+    struct shading_point point;
+    struct turner_hit hit;
+    if (depth > tracer->statistics.largest_depth)
+        tracer->statistics.largest_depth = depth;
+
+    for (bool none = true; none;) {
+        if (!turner_world_intersect(&hit, tracer->world, &ray, INFINITY)) {
+            through = mul(through, turner_media_transmittance(&media, scene, INFINITY));
+            return mul(through, turner_background_radiance(scene, ray.direction));
+        }
+        meet(&point, tracer, &ray, &hit, &media);
+        through = mul(through, turner_media_transmittance(&point.media, scene, hit.t));
+        none = is_none(&point);
+        if (none) {
+            ray = turner_surface_leave(&point.surface, ray.direction, !point.outside);
+            media = point.beyond;
+        }
+    }
+    if (depth == 0)
+        tracer->statistics.camera_hits++;
+    turner_vector local = local_illumination(tracer, &point);
+    turner_vector secondary = secondary_radiance(tracer, &point, depth, mul(weight, through));
+    return mul(through, add(local, secondary));
+}
+
+turner_vector turner_trace_camera(struct turner_tracer *tracer, turner_vector origin,
+                                  turner_vector direction)
+{
+    const struct turner_scene *scene = tracer->world->scene;
+    struct turner_ray ray = {.origin = origin, .direction = direction};
+    if (scene->settings.cutoff > 1) { /* the camera ray's own weight is 1 */
+        tracer->pruned += 1;
+        return grey(0);
+    }
+    tracer->statistics.camera_rays++;
+    return trace(tracer, ray, turner_media_of_camera(&scene->camera), 0, grey(1));
+}

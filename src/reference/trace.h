@@ -1,0 +1,20 @@
+/* Whitted's recursion. docs/model.md. */
+#ifndef TURNER_REFERENCE_TRACE_H
+#define TURNER_REFERENCE_TRACE_H
+
+#include "reference/media.h"
+#include "reference/reference.h"
+#include "reference/world.h"
+
+/* One thread's state while it traces. */
+struct turner_tracer {
+    const struct turner_world *world;
+    struct turner_reference_statistics statistics;
+    turner_real pruned; /* largest channels of the weights cut so far */
+};
+
+/* Radiance that a camera ray brings. Its direction is unit. */
+turner_vector turner_trace_camera(struct turner_tracer *tracer, turner_vector origin,
+                                  turner_vector direction);
+
+#endif
