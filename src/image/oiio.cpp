@@ -19,25 +19,6 @@ extern "C" {
 
 namespace {
 
-/* A file in memory. What OpenImageIO has for this cannot be read back, which libtiff wants to do
- * with a directory it has just written. */
-class memory_file : public OIIO::Filesystem::IOVecOutput {
-public:
-    size_t read(void *bytes, size_t size) override
-    {
-        size_t count = pread(bytes, size, m_pos);
-        m_pos += static_cast<int64_t>(count);
-        return count;
-    }
-    size_t pread(void *bytes, size_t size, int64_t offset) override
-    {
-        size_t start = std::min(static_cast<size_t>(offset), m_buf.size());
-        size_t count = std::min(size, m_buf.size() - start);
-        std::memcpy(bytes, m_buf.data() + start, count);
-        return count;
-    }
-};
-
 /* No thread pools: pictures are small beside the work of drawing them. */
 void start()
 {
@@ -93,12 +74,13 @@ enum turner_result write_picture(const char *path, const struct turner_format *f
                                  const struct turner_image_encoding *encoding)
 {
     start();
-    memory_file file;
+    OIIO::Filesystem::IOVecOutput file;
     std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format->codec);
     if (!output || !output->set_ioproxy(&file)) {
         return turner_fail(TURNER_OUTPUT, "cannot write %s: this OpenImageIO cannot write %s; use "
                                           "another ending", path, format->codec);
     }
+    /* no has_error here: every TIFF, good as it is, leaves a complaint about its Exif directory */
     if (!output->open(path, describe(format, width, height, encoding)) ||
         !output->write_image(type_of(format->sample), samples) || !output->close()) {
         return turner_fail(TURNER_OUTPUT, "cannot write %s: %s; use another ending", path,
@@ -139,8 +121,9 @@ enum turner_result read_picture(struct turner_image *image, const char *path, in
     if (result != TURNER_OK)
         return turner_fail(result, "cannot read picture %s: %s", path, turner_message());
     OIIO::stride_t pixel = 4 * sizeof(float);
+    /* has_error: a TIFF or JPEG that ends early is read with success, the error only noted */
     if (!input->read_image(0, 0, 0, *channels, OIIO::TypeDesc::FLOAT, image->rgba, pixel) ||
-        !input->close()) {
+        input->has_error() || !input->close()) {
         return unreadable(path, reason(input->geterror()) + "; check that the file is whole");
     }
     return TURNER_OK;
