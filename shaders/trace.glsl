@@ -12,6 +12,7 @@ struct search_t {
     hit_t hit;    // the nearest so far; hit.t starts as the ray's t_max
     bool found;
     bool shadow;
+    bool tinted;  // shadow rays may pass transmissive surfaces
     bool blocked; // shadow ray met an opaque surface: nothing more to find
 };
 
@@ -26,8 +27,7 @@ void consider(inout search_t search, float t, uint id, uint primitive, uint inst
         return;
     search.hit = hit_t(t, id, primitive, instance, coordinates);
     search.found = true;
-    if (search.shadow && (!NEEDS_ANY(TURNER_NEEDS_TINTED) ||
-                          (material & TURNER_MATERIAL_TRANSMISSIVE) == 0u))
+    if (search.shadow && !(search.tinted && (material & TURNER_MATERIAL_TRANSMISSIVE) != 0u))
         search.blocked = true;
 }
 
@@ -72,6 +72,7 @@ search_t trace(ray_t ray, bool shadow)
     search.hit = hit_t(ray.t_max, 0u, 0u, 0u, vec2(0.0));
     search.found = false;
     search.shadow = shadow;
+    search.tinted = NEEDS_ANY(TURNER_NEEDS_TINTED) && scene.shadows_tinted != 0u;
     search.blocked = false;
     if (NEEDS_ANY(TURNER_NEEDS_PLANES))
         intersect_planes(search, ray);

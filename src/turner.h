@@ -50,6 +50,50 @@ struct turner_scene;
 enum turner_result turner_scene_load(struct turner_scene **scene, const char *path);
 void turner_scene_destroy(struct turner_scene *scene);
 
+/* ---- Rendering ---- */
+enum turner_traversal { TURNER_TRAVERSAL_AUTO, TURNER_TRAVERSAL_BVH, TURNER_TRAVERSAL_RAY_QUERY };
+
+/* Settings on top of the scene's own; zeroed is a good default. */
+struct turner_render_options {
+    const char *device; /* NULL: best; an index or part of a name; "reference": extended precision
+                           on the CPU, no Vulkan */
+    enum turner_traversal traversal;
+    const char *const *shader_dirs; /* searched first */
+    size_t shader_dir_count;
+    int tile;            /* pixels, width and height of what is traced at once; 0 adapts to time */
+    int threads;         /* of the reference; 0 one per core */
+    bool unspecialised;  /* everything in the kernel, needed or not: same picture, slower */
+    /* Called with the share done in [0,1]; false ends the rendering (TURNER_INTERRUPTED). */
+    bool (*progress)(double share, void *user);
+    void *user;
+};
+
+struct turner_statistics {
+    char device[256], driver[512];
+    const char *traversal;    /* "bvh", "ray_query" or "reference" */
+    const char *precision;    /* "f32" or "extended" */
+    uint64_t camera_rays, reflected_rays, refracted_rays, shadow_rays;
+    uint64_t tir_rays;        /* reflected rays that total internal reflection sent */
+    uint64_t camera_hits;     /* camera rays that met something */
+    uint64_t unfinished;      /* samples that ran into a loop's bound; 0 in a right picture */
+    int largest_depth;        /* of a ray that was followed */
+    double pruned_mean, pruned_max;
+    uint64_t nonfinite;       /* pixels that are not finite, and the first one's place */
+    int nonfinite_x, nonfinite_y;
+    double seconds_parse, seconds_device, seconds_build, seconds_compile, seconds_upload,
+        seconds_trace, seconds_read_back, seconds_write;
+    uint64_t host_peak_bytes, device_peak_bytes;
+    uint32_t needs;           /* TURNER_NEEDS_… that were compiled in */
+    size_t kernel_words;      /* size of the kernel's SPIR-V before specialisation */
+    size_t primitives, instances;
+};
+
+/* Renders into a new picture (destroy it also after a failure). `statistics` may be NULL.
+ * TURNER_DEVICE with what is missing, TURNER_BAD_INPUT for a broken shader. */
+enum turner_result turner_render(struct turner_image *image, const struct turner_scene *scene,
+                                 const struct turner_render_options *options,
+                                 struct turner_statistics *statistics);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,0 +1,47 @@
+/* A scene on the device: flat arrays, acceleration structures, the block the kernel starts from. */
+#ifndef TURNER_RENDER_DEVICE_SCENE_H
+#define TURNER_RENDER_DEVICE_SCENE_H
+
+#include "bvh/flat.h"
+#include "gpu/accel.h"
+#include "gpu/memory.h"
+#include "render/needs.h"
+
+enum turner_array {
+    TURNER_ARRAY_NODES,
+    TURNER_ARRAY_PRIMITIVES,
+    TURNER_ARRAY_INSTANCES,
+    TURNER_ARRAY_PLANES,
+    TURNER_ARRAY_CORNERS,
+    TURNER_ARRAY_NORMALS,
+    TURNER_ARRAY_UVS,
+    TURNER_ARRAY_MATERIALS,
+    TURNER_ARRAY_MEDIA,
+    TURNER_ARRAY_TEXELS,
+    TURNER_ARRAY_IMAGES,
+    TURNER_ARRAY_LIGHTS,
+    TURNER_ARRAY_SCENE,
+    TURNER_ARRAYS
+};
+
+struct turner_device_scene {
+    struct turner_buffer arrays[TURNER_ARRAYS];
+    struct turner_accel *accels; /* ray_query: two a group, triangles and boxes */
+    size_t accel_count;
+    struct turner_accel top;     /* ray_query */
+};
+
+/* Uploads `flat` and all else of `scene`; with `ray_query` builds acceleration structures, too. */
+enum turner_result turner_device_scene_create(struct turner_device_scene *device,
+                                              struct turner_gpu *gpu,
+                                              const struct turner_scene *scene,
+                                              const struct turner_flat *flat,
+                                              const struct turner_needs *needs, bool ray_query);
+void turner_device_scene_destroy(struct turner_gpu *gpu, struct turner_device_scene *device);
+
+/* The acceleration structures alone (acceleration.c). */
+enum turner_result turner_device_scene_build(struct turner_device_scene *device,
+                                             struct turner_gpu *gpu,
+                                             const struct turner_flat *flat);
+
+#endif
