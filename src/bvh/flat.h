@@ -36,18 +36,21 @@ struct turner_flat {
     uint32_t *instance_groups;        /* instance_count: group of each instance */
     size_t node_count, primitive_count, instance_count, corner_count, vertex_count;
     uint32_t root;       /* top level's root node */
-    uint32_t max_depth;  /* entries a traversal stack needs, both levels together, with sentinel */
-    uint64_t max_visits; /* nodes and instances one ray can visit, at most */
+    uint32_t max_depth;  /* SAH: entries a traversal stack needs that pushes one child a node: the
+                            levels of the top tree, 1 sentinel, the levels of the deepest group */
+    uint64_t max_visits; /* SAH: nodes and instances one ray can visit, at most */
 };
 
-/* Flattens a valid scene. `threads` is 1 for now or more for groups side by side. Deterministic.
- * TURNER_DEVICE when memory does not suffice (computed before it is taken). */
+/* Flattens a valid scene; the same scene gives the same bytes. TURNER_DEVICE when memory does not
+ * suffice (computed before it is taken), TURNER_BAD_INPUT when a coordinate or a transform does not
+ * fit single precision. After a failure the flat scene is zeroed. */
 enum turner_result turner_flat_create(struct turner_flat *flat, const struct turner_scene *scene,
                                       enum turner_order order);
 void turner_flat_destroy(struct turner_flat *flat);
 
-/* Bounds of a primitive in its group, rounded outwards by a few ulps so that every float
- * intersection that the shaders accept lies inside. */
+/* Bounds of a primitive in its group, rounded outwards and then by two ulps of the largest
+ * coordinate, so that every float intersection that the shaders accept lies inside. Infinite where
+ * they do not fit a float. A cone's are exact: its discs reach r·sqrt(1 − n_i²) along axis i. */
 void turner_primitive_bounds(float lo[3], float hi[3], const struct turner_gpu_primitive *primitive);
 
 #endif

@@ -1,0 +1,293 @@
+#include "bvh/flat.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "bvh/flatten.h"
+
+/* What is known before anything is taken. */
+struct sizes {
+    uint64_t primitives, largest_group, nodes, instances, corners, vertices;
+};
+
+static uint64_t most_nodes(uint64_t items)
+{
+    return items > 2 ? items - 1 : 1;
+}
+
+/* Whether an instance of each group brings a material with a pattern; the caller frees it. */
+static bool *find_patterned(const struct turner_scene *scene)
+{
+    bool *patterned = turner_calloc(scene->group_count, sizeof *patterned);
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        const struct turner_instance *instance = &scene->instances[i];
+        if (instance->material != TURNER_NONE &&
+            scene->materials[instance->material].pattern != TURNER_PATTERN_NONE)
+            patterned[instance->group] = true;
+    }
+    return patterned;
+}
+
+static struct sizes measure_scene(const struct turner_scene *scene, const bool *patterned)
+{
+    struct sizes sizes = {.instances = 1 + (uint64_t)scene->instance_count};
+    sizes.nodes = most_nodes(sizes.instances);
+    for (size_t g = 0; g < scene->group_count; g++) {
+        const struct turner_group *group = &scene->groups[g];
+        uint64_t count = turner_group_primitive_count(group);
+        sizes.primitives += count;
+        sizes.largest_group = count > sizes.largest_group ? count : sizes.largest_group;
+        sizes.nodes += most_nodes(count);
+        for (size_t i = 0; i < group->mesh_count; i++) {
+            const struct turner_mesh *mesh = &group->meshes[i];
+            if (mesh->normals || turner_flat_needs_uvs(scene, mesh, patterned[g])) {
+                sizes.corners += mesh->triangle_count;
+                sizes.vertices += mesh->vertex_count;
+            }
+        }
+    }
+    return sizes;
+}
+
+static enum turner_result check_sizes(const struct sizes *sizes, enum turner_order order)
+{
+    const struct turner_flat *flat = NULL; /* for sizeof only */
+    uint64_t items =
+        sizes->largest_group > sizes->instances ? sizes->largest_group : sizes->instances;
+    uint64_t bytes = sizes->primitives * sizeof *flat->primitives +
+                     sizes->instances * (sizeof *flat->instances + sizeof *flat->instance_groups +
+                                         sizeof(struct turner_bvh_bounds)) +
+                     sizes->corners * sizeof *flat->corners +
+                     sizes->vertices * (sizeof *flat->normals + sizeof *flat->uvs) +
+                     items * sizeof(struct turner_bvh_item);
+    if (order == TURNER_ORDER_SAH)
+        bytes += sizes->nodes * sizeof *flat->nodes;
+    uint64_t available = turner_memory_available();
+    if (bytes > available)
+        return turner_fail(TURNER_DEVICE,
+                           "the scene's %llu primitives and %llu instances need up to %.1f MiB of "
+                           "memory to be laid out, and %.1f MiB are free; take a smaller scene or "
+                           "close other programs",
+                           (unsigned long long)sizes->primitives,
+                           (unsigned long long)sizes->instances, (double)bytes / 1048576,
+                           (double)available / 1048576);
+    if (sizes->vertices > UINT32_MAX)
+        return turner_fail(TURNER_BAD_INPUT,
+                           "the scene's meshes have %llu vertices with normals or texture "
+                           "coordinates, and %lu are the most; take a smaller scene",
+                           (unsigned long long)sizes->vertices, (unsigned long)UINT32_MAX);
+    return TURNER_OK;
+}
+
+/* Fills items with the bounds of the group's primitives, in their order but, for `triangles_first`,
+ * with the triangles before the rest. */
+static enum turner_result measure_group(struct turner_bvh_item *items,
+                                        struct turner_flat_group *flat_group,
+                                        const struct turner_gpu_primitive *primitives,
+                                        const struct turner_group *group, bool triangles_first)
+{
+    static const char *const kinds[] = {"sphere", "cone", "triangle"};
+    uint32_t count = (uint32_t)turner_group_primitive_count(group);
+    uint32_t boxes = (uint32_t)(group->sphere_count + group->cone_count);
+    struct turner_bvh_bounds bounds = TURNER_BVH_EMPTY;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t place = !triangles_first ? i : i < boxes ? i + (count - boxes) : i - boxes;
+        struct turner_bvh_item *item = &items[place];
+        item->index = i;
+        item->pad = 0;
+        turner_primitive_bounds(item->lo, item->hi, &primitives[i]);
+        for (int axis = 0; axis < 3; axis++) {
+            /* written so that NaN fails */
+            if (!(isfinite(item->lo[axis]) && isfinite(item->hi[axis]))) {
+                uint32_t id = primitives[i].id;
+                return turner_fail(
+                    TURNER_BAD_INPUT,
+                    "%s %u of %s%s%s does not fit single precision (its numbers must stay below "
+                    "3e38); make the scene smaller",
+                    kinds[id >> TURNER_KIND_SHIFT], id & ((1u << TURNER_KIND_SHIFT) - 1),
+                    group->name ? "group \"" : "the world", group->name ? group->name : "",
+                    group->name ? "\"" : "");
+            }
+            bounds.lo[axis] = fminf(bounds.lo[axis], item->lo[axis]);
+            bounds.hi[axis] = fmaxf(bounds.hi[axis], item->hi[axis]);
+        }
+    }
+    memcpy(flat_group->lo, bounds.lo, sizeof bounds.lo);
+    memcpy(flat_group->hi, bounds.hi, sizeof bounds.hi);
+    return TURNER_OK;
+}
+
+/* Puts primitives[items[i].index] in place i, for all i, along the cycles of the permutation; the
+ * items' indices are used up. */
+static void permute(struct turner_gpu_primitive *primitives, struct turner_bvh_item *items,
+                    uint32_t count)
+{
+    for (uint32_t start = 0; start < count; start++) {
+        if (items[start].index == start)
+            continue;
+        struct turner_gpu_primitive first = primitives[start];
+        uint32_t place = start;
+        while (items[place].index != start) {
+            uint32_t from = items[place].index;
+            primitives[place] = primitives[from];
+            items[place].index = place;
+            place = from;
+        }
+        primitives[place] = first;
+        items[place].index = place;
+    }
+}
+
+static enum turner_result flatten_groups(struct turner_flat *flat, const struct turner_scene *scene,
+                                         enum turner_order order, const bool *patterned,
+                                         struct turner_bvh_item *items, uint32_t *group_levels,
+                                         uint32_t *group_nodes)
+{
+    for (size_t g = 0; g < scene->group_count; g++) {
+        const struct turner_group *group = &scene->groups[g];
+        struct turner_flat_group *out = &flat->groups[g];
+        size_t first = flat->primitive_count;
+        uint32_t count = (uint32_t)turner_group_primitive_count(group);
+        uint32_t boxes = (uint32_t)(group->sphere_count + group->cone_count);
+        turner_flat_group(flat, scene, g, first, patterned[g]);
+        TURNER_TRY(measure_group(items, out, flat->primitives + first, group,
+                                 order == TURNER_ORDER_MEDIAN));
+        if (order == TURNER_ORDER_SAH) {
+            out->root = (uint32_t)flat->node_count;
+            group_levels[g] = turner_bvh_build(flat->nodes, &flat->node_count, items, count,
+                                               TURNER_BVH_LEAF, (uint32_t)first);
+            group_nodes[g] = (uint32_t)flat->node_count - out->root;
+        } else {
+            out->triangles = (uint32_t)first;
+            out->triangle_count = count - boxes;
+            out->boxes = (uint32_t)first + out->triangle_count;
+            out->box_count = boxes;
+            turner_bvh_median_order(items, out->triangle_count);
+            turner_bvh_median_order(items + out->triangle_count, boxes);
+        }
+        permute(flat->primitives + first, items, count);
+        flat->primitive_count += count;
+    }
+    return TURNER_OK;
+}
+
+/* Fills the instances, and items with the bounds of those that are not empty; *used says how
+ * many. */
+static enum turner_result flatten_instances(struct turner_flat *flat,
+                                            const struct turner_scene *scene,
+                                            struct turner_bvh_item *items, uint32_t *used)
+{
+    *used = 0;
+    for (size_t i = 0; i < flat->instance_count; i++) {
+        const struct turner_instance world = {.material = TURNER_NONE,
+                                              .transform = TURNER_AFFINE_IDENTITY};
+        const struct turner_instance *instance = i ? &scene->instances[i - 1] : &world;
+        const struct turner_flat_group *group = &flat->groups[instance->group];
+        struct turner_gpu_instance *out = &flat->instances[i];
+        struct turner_bvh_bounds bounds, box;
+        memcpy(box.lo, group->lo, sizeof box.lo);
+        memcpy(box.hi, group->hi, sizeof box.hi);
+        if (!turner_flat_instance(out, &bounds, &instance->transform, &box))
+            return turner_fail(TURNER_BAD_INPUT,
+                               "instance %zu: its transform, the inverse or what it shows does not "
+                               "fit single precision; scale it less",
+                               i - 1);
+        out->root = group->root;
+        out->triangles = group->triangles;
+        out->boxes = group->boxes;
+        out->material = turner_flat_material(scene, instance->material);
+        flat->instance_groups[i] = instance->group;
+        if (box.lo[0] > box.hi[0])
+            continue;
+        struct turner_bvh_item *item = &items[(*used)++];
+        *item = (struct turner_bvh_item){.index = (uint32_t)i};
+        memcpy(item->lo, bounds.lo, sizeof item->lo);
+        memcpy(item->hi, bounds.hi, sizeof item->hi);
+    }
+    return TURNER_OK;
+}
+
+/* The top level: leaves of one instance, named by its index, because instances stay in the order of
+ * the scene, which decides ties. */
+static void build_top(struct turner_flat *flat, struct turner_bvh_item *items, uint32_t count,
+                      const uint32_t *group_levels, const uint32_t *group_nodes, size_t group_count)
+{
+    size_t first = flat->node_count;
+    flat->root = (uint32_t)first;
+    uint32_t levels = turner_bvh_build(flat->nodes, &flat->node_count, items, count, 1, 0);
+    for (size_t i = first; i < flat->node_count; i++) {
+        for (int side = 0; side < 2; side++) {
+            if (flat->nodes[i].count[side])
+                flat->nodes[i].child[side] = items[flat->nodes[i].child[side]].index;
+        }
+    }
+    uint32_t deepest = 0;
+    for (size_t g = 0; g < group_count; g++)
+        deepest = group_levels[g] > deepest ? group_levels[g] : deepest;
+    flat->max_depth = levels + 1 + deepest;
+    flat->max_visits = flat->node_count - first;
+    for (size_t i = 0; i < flat->instance_count; i++)
+        flat->max_visits += 1 + (uint64_t)group_nodes[flat->instance_groups[i]];
+}
+
+enum turner_result turner_flat_create(struct turner_flat *flat, const struct turner_scene *scene,
+                                      enum turner_order order)
+{
+    *flat = (struct turner_flat){0};
+    bool *patterned = find_patterned(scene);
+    struct sizes sizes = measure_scene(scene, patterned);
+    enum turner_result result = check_sizes(&sizes, order);
+    if (result != TURNER_OK) {
+        free(patterned);
+        return result;
+    }
+
+    uint64_t most_items =
+        sizes.largest_group > sizes.instances ? sizes.largest_group : sizes.instances;
+    struct turner_bvh_item *items = turner_calloc(most_items, sizeof *items);
+    uint32_t *group_levels = turner_calloc(scene->group_count, sizeof *group_levels);
+    uint32_t *group_nodes = turner_calloc(scene->group_count, sizeof *group_nodes);
+    flat->instance_count = sizes.instances;
+    flat->primitives = turner_calloc(sizes.primitives, sizeof *flat->primitives);
+    flat->instances = turner_calloc(sizes.instances, sizeof *flat->instances);
+    flat->instance_groups = turner_calloc(sizes.instances, sizeof *flat->instance_groups);
+    flat->groups = turner_calloc(scene->group_count, sizeof *flat->groups);
+    flat->corners = turner_calloc(sizes.corners, sizeof *flat->corners);
+    flat->normals = turner_calloc(sizes.vertices, sizeof *flat->normals);
+    flat->uvs = turner_calloc(sizes.vertices, sizeof *flat->uvs);
+    if (order == TURNER_ORDER_SAH)
+        flat->nodes = turner_calloc(sizes.nodes, sizeof *flat->nodes);
+
+    uint32_t used;
+    TURNER_TRY_DONE(
+        flatten_groups(flat, scene, order, patterned, items, group_levels, group_nodes));
+    TURNER_TRY_DONE(flatten_instances(flat, scene, items, &used));
+    if (order == TURNER_ORDER_SAH) {
+        build_top(flat, items, used, group_levels, group_nodes, scene->group_count);
+        flat->nodes = turner_realloc(flat->nodes, flat->node_count, sizeof *flat->nodes);
+    }
+done:
+    free(patterned);
+    free(items);
+    free(group_levels);
+    free(group_nodes);
+    if (result != TURNER_OK)
+        turner_flat_destroy(flat);
+    return result;
+}
+
+void turner_flat_destroy(struct turner_flat *flat)
+{
+    free(flat->nodes);
+    free(flat->primitives);
+    free(flat->instances);
+    free(flat->corners);
+    free(flat->normals);
+    free(flat->uvs);
+    free(flat->groups);
+    free(flat->instance_groups);
+    *flat = (struct turner_flat){0};
+}
