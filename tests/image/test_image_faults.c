@@ -228,13 +228,22 @@ static void truncated_files(void **state)
     static const char *const names[] = {"t.exr", "t.hdr", "t.tif", "t.png", "t.16.png", "t.ppm",
                                         "t.jpg"};
     struct turner_image image = noise();
+    int wait_status = -1;
     for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
         const char *path = in_folder(names[n]);
         assert_int_equal(turner_image_write(&image, path, &plain), TURNER_OK);
         struct stat status;
         assert_int_equal(stat(path, &status), 0);
         assert_int_equal(truncate(path, status.st_size / 2), 0);
-        cannot_read(path, "");
+        /* in a child, because OpenImageIO 2.4 leaks a string for each truncated PNG */
+        pid_t child = fork();
+        if (child == 0) {
+            struct turner_image back;
+            enum turner_result result = turner_image_read(&back, path, true);
+            _exit(result != TURNER_BAD_INPUT || !strstr(turner_message(), path));
+        }
+        assert_int_equal(waitpid(child, &wait_status, 0), child);
+        assert_int_equal(wait_status, 0);
     }
     turner_image_destroy(&image);
 }
