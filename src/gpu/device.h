@@ -85,10 +85,10 @@ enum turner_result turner_gpu_submit_wait(struct turner_gpu *gpu, VkCommandBuffe
  * acceleration structure builds and copies recorded after it. */
 void turner_gpu_barrier(VkCommandBuffer commands);
 
-/* "VK_ERROR_DEVICE_LOST" and so on; "VkResult -123" for one that is not known. Never NULL. */
+/* "VK_ERROR_DEVICE_LOST" and so on; "an unknown VkResult" for others. Never NULL. */
 const char *turner_vk_result_name(VkResult result);
 
-/* turner_fail for a Vulkan call that failed: "vkCreateX: VK_ERROR_… (file.c:12)" plus what to do. */
+/* turner_fail for a Vulkan call that failed: "vkCreateX: VK_ERROR_… (file.c:12)", what to do. */
 enum turner_result turner_vk_fail(VkResult result, const char *call, const char *file, int line);
 
 #define VK_TRY(call)                                                                               \

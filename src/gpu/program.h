@@ -57,9 +57,9 @@ enum turner_result turner_program_create(struct turner_program *program, struct 
                                          VkPipelineCache cache);
 void turner_program_destroy(struct turner_gpu *gpu, struct turner_program *program);
 
-/* Binds one resource, not while a dispatch runs. A binding that the shader does not have is ignored
- * (the compiler removes unused ones). TURNER_DEVICE when `buffer` is larger than a descriptor
- * reaches. */
+/* Binds one resource, not while a dispatch runs. A binding that the shader does not have is ignored.
+ * TURNER_BAD_INPUT when it declares something else there, TURNER_DEVICE when `buffer` is larger than
+ * a descriptor reaches. */
 enum turner_result turner_program_bind_buffer(struct turner_program *program,
                                               struct turner_gpu *gpu, uint32_t binding,
                                               const struct turner_buffer *buffer);
