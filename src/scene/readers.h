@@ -45,6 +45,25 @@ void turner_group_add_mesh(struct turner_group *group, struct turner_mesh *mesh)
 /* The index of a new, empty group; `name` is copied. */
 uint32_t turner_scene_add_group(struct turner_scene *scene, const char *name);
 
+/* ---- checks that readers make where they can point at the place, and turner_scene_validate ---- */
+
+enum turner_camera_state {
+    TURNER_CAMERA_GOOD,
+    TURNER_CAMERA_NO_DIRECTION, /* from = at */
+    TURNER_CAMERA_UP_PARALLEL   /* to the view, or zero */
+};
+enum turner_camera_state turner_camera_check(const struct turner_camera *camera);
+
+/* May a hit on the material send two rays, so that their number doubles with each level? */
+bool turner_material_branches(const struct turner_material *material,
+                              const struct turner_settings *settings);
+
+/* Finite, also as 32-bit floats, and invertible. */
+bool turner_affine_usable(const struct turner_affine *affine);
+
+/* No channel negative, each finite also as a 32-bit float. */
+bool turner_color_usable(struct turner_vec3 color);
+
 /* A scene from text that is in memory: picks the reader by the ending of `path`, then does what
  * turner_scene_load does after reading. `*scene` is NULL after a failure. */
 enum turner_result turner_scene_parse(struct turner_scene **scene, const char *text, size_t length,
