@@ -148,7 +148,6 @@ void turner_accel_destroy(struct turner_gpu *gpu, struct turner_accel *accel)
 {
     if (accel->handle && !gpu->hung)
         gpu->destroy_acceleration(gpu->device, accel->handle, NULL);
-    if (gpu->device)
-        turner_buffer_destroy(gpu, &accel->buffer);
+    turner_buffer_destroy(gpu, &accel->buffer);
     *accel = (struct turner_accel){0};
 }

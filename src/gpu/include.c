@@ -260,7 +260,7 @@ static enum turner_result expand(struct expansion *e, size_t index, bool conditi
         next = text + length + (text[length] == '\n');
         long hash = scan_line(&scan, text, length);
         const char *directive = hash < 0 ? NULL : text + hash;
-        if (directive && directive_is(directive, "include", &rest)) {
+        if (directive && directive_is(directive, "include", &rest) && *rest != '<') {
             if (scan.continued || scan.block_comment)
                 return turner_fail(TURNER_BAD_INPUT, "%s:%d: #include must end on its own line",
                                    path, line);

@@ -5,6 +5,7 @@
  * program. Names are relative to those folders, whoever includes; no "..", no leading "/".
  * A file comes in only once, as with #pragma once: in the text every file stands between
  * #ifndef TURNER_FILE_n and #endif, so this holds for includes under #if, too.
+ * #include <name> is left as it is: it belongs to C, where both languages share a file.
  * #line N n, n the index into `files`, keeps the compiler's line numbers right. */
 #ifndef TURNER_GPU_INCLUDE_H
 #define TURNER_GPU_INCLUDE_H

@@ -142,7 +142,7 @@ done:
 
 void turner_buffer_destroy(struct turner_gpu *gpu, struct turner_buffer *buffer)
 {
-    if (!gpu->hung) {
+    if (gpu->device && !gpu->hung) {
         vkDestroyBuffer(gpu->device, buffer->buffer, NULL);
         vkFreeMemory(gpu->device, buffer->memory, NULL);
     }
