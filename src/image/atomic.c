@@ -1,4 +1,5 @@
-/* Files that appear whole or not at all: written aside, then renamed. */
+#include "image/atomic.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -10,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "image/codec.h"
+#include "image/image.h"
 
 /* The file aside that exists now. One at a time: the lock is held while `pending` is set, and the
  * name changes only while it is not, so a signal handler finds a whole name or none. */

@@ -32,10 +32,4 @@ enum turner_result turner_codec_write(const char *path, const struct turner_form
 enum turner_result turner_codec_read(struct turner_image *image, const char *path, int *channels,
                                      bool *integer);
 
-/* Writes `size` bytes to "<path>.<pid>.part", then renames it. TURNER_OUTPUT. */
-enum turner_result turner_atomic_write(const char *path, const void *bytes, size_t size);
-
-/* Whether turner_atomic_write could create its file. TURNER_OUTPUT. */
-enum turner_result turner_atomic_check(const char *path);
-
 #endif

@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "base/memory.h"
+#include "image/atomic.h"
 #include "image/codec.h"
 
 /* IEC 61966-2-1:1999, 5.2 and 5.3, with the constants of its amendment 1. */

@@ -14,6 +14,7 @@
 #include <sys/stat.h>
 
 extern "C" {
+#include "image/atomic.h"
 #include "image/codec.h"
 }
 

@@ -19,12 +19,12 @@ static inline int folder_create(void **state)
     return mkdtemp(folder) ? 0 : -1;
 }
 
-/* The path of a file in the folder; valid until the eighth next call. */
+/* The path of a file in the folder; valid until the 32nd next call. */
 static inline const char *in_folder(const char *name)
 {
-    static char paths[8][512];
+    static char paths[32][512];
     static int next;
-    char *path = paths[next++ % 8];
+    char *path = paths[next++ % 32];
     snprintf(path, sizeof paths[0], "%s/%s", folder, name);
     return path;
 }
