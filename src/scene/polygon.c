@@ -30,6 +30,17 @@ static void add_triangle(struct turner_polygon *polygon, uint32_t a, uint32_t b,
     triangle[2] = c;
 }
 
+/* fmin and fmax without their care for NaN, which costs a call */
+static double least(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static double most(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 /* Twice the signed area of abc, positive when counter-clockwise; 0 when rounding decides. */
 static double orient(struct point a, struct point b, struct point c)
 {
@@ -43,15 +54,15 @@ static double orient(struct point a, struct point b, struct point c)
 static bool newell(struct turner_polygon *polygon)
 {
     struct turner_vec3 sum = {0, 0, 0};
-    double extent = 0;
+    double extent = 0; /* squared */
     for (size_t i = 1; i + 1 < polygon->corner_count; i++) {
         struct turner_vec3 a = turner_vec3_sub(polygon->corners[i], polygon->corners[0]);
         struct turner_vec3 b = turner_vec3_sub(polygon->corners[i + 1], polygon->corners[0]);
         sum = turner_vec3_add(sum, turner_vec3_cross(a, b));
-        extent = fmax(extent, fmax(turner_vec3_length(a), turner_vec3_length(b)));
+        extent = most(extent, most(turner_vec3_dot(a, a), turner_vec3_dot(b, b)));
     }
     polygon->normal = sum;
-    return turner_vec3_length(sum) > 8 * DBL_EPSILON * extent * extent;
+    return turner_vec3_length(sum) > 8 * DBL_EPSILON * extent;
 }
 
 /* Drops the coordinate along which the normal is longest; seen from the normal's side the outline
@@ -113,8 +124,8 @@ static bool is_convex(const struct outline *o)
 /* Whether segments ab and cd have a point in common. */
 static bool segments_meet(struct point a, struct point b, struct point c, struct point d)
 {
-    if (fmax(a.x, b.x) < fmin(c.x, d.x) || fmax(c.x, d.x) < fmin(a.x, b.x) ||
-        fmax(a.y, b.y) < fmin(c.y, d.y) || fmax(c.y, d.y) < fmin(a.y, b.y))
+    if (most(a.x, b.x) < least(c.x, d.x) || most(c.x, d.x) < least(a.x, b.x) ||
+        most(a.y, b.y) < least(c.y, d.y) || most(c.y, d.y) < least(a.y, b.y))
         return false;
     double abc = orient(a, b, c), abd = orient(a, b, d);
     if ((abc > 0 && abd > 0) || (abc < 0 && abd < 0))
@@ -152,8 +163,8 @@ static bool is_ear(const struct outline *o, const struct ring *ring, uint32_t ti
     struct point a = o->points[first], b = o->points[tip], c = o->points[last];
     if (orient(a, b, c) <= 0)
         return false;
-    double low_x = fmin(a.x, fmin(b.x, c.x)), high_x = fmax(a.x, fmax(b.x, c.x));
-    double low_y = fmin(a.y, fmin(b.y, c.y)), high_y = fmax(a.y, fmax(b.y, c.y));
+    double low_x = least(a.x, least(b.x, c.x)), high_x = most(a.x, most(b.x, c.x));
+    double low_y = least(a.y, least(b.y, c.y)), high_y = most(a.y, most(b.y, c.y));
     for (uint32_t i = ring->next[last]; i != first; i = ring->next[i]) {
         struct point p = o->points[i];
         if (p.x >= low_x && p.x <= high_x && p.y >= low_y && p.y <= high_y &&
@@ -283,7 +294,7 @@ static double edge_parameter(const struct slabs *s, const struct edge *e, size_t
     if (line == e->low || line == e->high)
         return line == e->high;
     struct point a = s->outline->points[e->a], b = s->outline->points[e->b];
-    return fmin(fmax((s->heights[line] - a.y) / (b.y - a.y), 0), 1);
+    return least(most((s->heights[line] - a.y) / (b.y - a.y), 0), 1);
 }
 
 static double edge_x(const struct slabs *s, const struct edge *e, size_t line)
@@ -417,7 +428,7 @@ static bool cut_trapezoids(struct turner_polygon *polygon, const struct outline 
     struct slabs s = {.polygon = polygon, .outline = outline};
     double extent = 0;
     for (size_t i = 0; i < outline->count; i++)
-        extent = fmax(extent, fmax(fabs(outline->points[i].x), fabs(outline->points[i].y)));
+        extent = most(extent, most(fabs(outline->points[i].x), fabs(outline->points[i].y)));
     s.tolerance = 64 * DBL_EPSILON * extent;
     bool done = find_lines(&s);
     if (done) {

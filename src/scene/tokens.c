@@ -1,5 +1,6 @@
 #include "scene/tokens.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -94,8 +95,8 @@ enum turner_result turner_tokens_number(struct turner_tokens *tokens, double *va
     *value = strtod(number, &rest);
     if (*rest != '\0')
         return turner_tokens_expected(tokens, "a number, %s", what);
-    if (!isfinite(*value))
-        return turner_tokens_expected(tokens, "a number within the range of double, %s", what);
+    if (fabs(*value) > (double)FLT_MAX)
+        return turner_tokens_expected(tokens, "a number within ±3.4e38, %s", what);
     if (*value < low && isinf(high))
         return turner_tokens_expected(tokens, "at least %g, %s", low, what);
     if (*value < low || *value > high)

@@ -37,7 +37,8 @@ bool turner_tokens_at(const struct turner_tokens *tokens, const char *word);
 /* Whether the current token starts like a number. */
 bool turner_tokens_at_number(const struct turner_tokens *tokens);
 
-/* Takes a decimal number with low ≤ value ≤ high. The failure calls it `what`. */
+/* Takes a decimal number with low ≤ value ≤ high that is finite also as a 32-bit float. The failure
+ * calls it `what`. */
 enum turner_result turner_tokens_number(struct turner_tokens *tokens, double *value,
                                         const char *what, double low, double high);
 
