@@ -9,8 +9,7 @@
 #define TURNER_VEC2(name) vec2 name
 #define TURNER_VEC3(name) vec3 name
 #define TURNER_UINT64 uint64_t
-#else
-#include <stdint.h>
+#else /* C, after <stdint.h> */
 #define TURNER_STRUCT(name) struct name
 #define TURNER_VEC2(name) float name[2]
 #define TURNER_VEC3(name) float name[3]

@@ -3,9 +3,9 @@
 #ifndef TURNER_BVH_FLAT_H
 #define TURNER_BVH_FLAT_H
 
-#include "../shaders/shared.h"
-#include "base/result.h"
 #include "scene/scene.h"
+
+#include "../shaders/shared.h"
 
 enum turner_order {
     TURNER_ORDER_SAH,   /* binned-SAH BVH2 over each group and over the instances; primitives lie

@@ -1,0 +1,83 @@
+#include <locale.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "app/app.h"
+#include "image/image.h"
+
+static const struct {
+    const char *name, *summary;
+    enum turner_result (*run)(int argc, char **argv);
+} commands[] = {
+    {"render", "draw a scene into a picture", turner_cmd_render},
+    {"compare", "say how much two pictures differ", turner_cmd_compare},
+    {"check", "read scenes or shaders and say what is wrong with them", turner_cmd_check},
+    {"devices", "list the devices and what each can do", turner_cmd_devices},
+};
+enum { command_count = sizeof commands / sizeof *commands };
+
+static void print_help(FILE *out)
+{
+    fprintf(out, "turner %s draws scenes by recursive ray tracing on Vulkan compute, "
+                 "and says how fast and how wrong.\n\n"
+                 "Usage: turner COMMAND [ARGUMENT]…\n\nCommands:\n", turner_version());
+    for (int i = 0; i < command_count; i++)
+        fprintf(out, "  %-9s %s\n", commands[i].name, commands[i].summary);
+    fprintf(out, "\nTry: turner render scenes/whitted1980.json -o picture.png\n"
+                 "Each command explains itself: turner render --help\n\n"
+                 "Exit status: 0 done; 1 pictures differ or a check failed; 2 wrong command line; "
+                 "3 wrong input;\n4 device, driver or memory; 5 could not write; "
+                 "130 interrupted.\n");
+}
+
+/* A picture appears whole or not at all: what is half written goes, and so do we, at once. */
+static void interrupted(int signal_number)
+{
+    turner_image_abandon();
+    _exit(128 + signal_number);
+}
+
+static void catch_signals(void)
+{
+    struct sigaction action = {.sa_handler = interrupted};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    sigaction(SIGHUP, &action, NULL);
+    signal(SIGPIPE, SIG_IGN);  /* a closed pipe becomes a failed write with a message */
+    signal(SIGXFSZ, SIG_IGN);  /* so does the limit of file sizes */
+}
+
+int main(int argc, char **argv)
+{
+    setlocale(LC_ALL, "C");
+    catch_signals();
+    if (argc < 2) {
+        print_help(stderr);
+        return TURNER_USAGE;
+    }
+    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 ||
+        strcmp(argv[1], "help") == 0) {
+        print_help(stdout);
+        return TURNER_OK;
+    }
+    if (strcmp(argv[1], "--version") == 0) {
+        printf("turner %s\n", turner_version());
+        return TURNER_OK;
+    }
+    for (int i = 0; i < command_count; i++) {
+        if (strcmp(argv[1], commands[i].name) != 0)
+            continue;
+        enum turner_result result = commands[i].run(argc - 1, argv + 1);
+        if (result == TURNER_OK && (fflush(stdout) != 0 || ferror(stdout)))
+            result = turner_fail(TURNER_OUTPUT, "cannot write to standard output; is the disk "
+                                                "full or the pipe closed?");
+        if (result != TURNER_OK && *turner_message())
+            fprintf(stderr, "turner: error: %s\n", turner_message());
+        return (int)result;
+    }
+    fprintf(stderr, "turner: error: no command \"%s\"; see turner --help\n", argv[1]);
+    return TURNER_USAGE;
+}

@@ -1,0 +1,114 @@
+/* turner_render: from a scene to a picture and its statistics, on a device or by the reference. */
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+
+#include "reference/reference.h"
+#include "render/renderer.h"
+
+static void inspect(const struct turner_image *image, struct turner_statistics *statistics)
+{
+    double sum = 0;
+    size_t count = (size_t)image->width * (size_t)image->height;
+    statistics->nonfinite_x = statistics->nonfinite_y = -1;
+    for (size_t i = 0; i < count; i++) {
+        const float *pixel = image->rgba + 4 * i;
+        double pruned = (double)pixel[3];
+        sum += pruned;
+        if (pruned > statistics->pruned_max)
+            statistics->pruned_max = pruned;
+        if (isfinite(pixel[0]) && isfinite(pixel[1]) && isfinite(pixel[2]) && isfinite(pixel[3]))
+            continue;
+        if (statistics->nonfinite++ == 0) {
+            statistics->nonfinite_x = (int)(i % (size_t)image->width);
+            statistics->nonfinite_y = (int)(i / (size_t)image->width);
+        }
+    }
+    statistics->pruned_mean = sum / (double)count;
+}
+
+static void warn(const struct turner_statistics *statistics)
+{
+    if (statistics->nonfinite)
+        turner_warn("%llu pixel%s not finite, the first at %d,%d; look for huge radiances or "
+                    "coordinates there", (unsigned long long)statistics->nonfinite,
+                    statistics->nonfinite == 1 ? " is" : "s are", statistics->nonfinite_x,
+                    statistics->nonfinite_y);
+    if (statistics->unfinished)
+        turner_warn("%llu samples ran into the bound of a loop and are too dark; lower --depth",
+                    (unsigned long long)statistics->unfinished);
+}
+
+static enum turner_result draw_by_reference(struct turner_image *image,
+                                            const struct turner_scene *scene,
+                                            const struct turner_render_options *options,
+                                            struct turner_statistics *statistics)
+{
+    struct turner_reference_statistics counts = {0};
+    snprintf(statistics->device, sizeof statistics->device, "reference");
+    statistics->traversal = "reference";
+    statistics->precision = "extended";
+    double start = turner_seconds();
+    TURNER_TRY(turner_reference_render(image, scene, options->threads, &counts, options->progress,
+                                       options->user));
+    statistics->seconds_trace = turner_seconds() - start;
+    statistics->camera_rays = counts.camera_rays;
+    statistics->reflected_rays = counts.reflected_rays;
+    statistics->refracted_rays = counts.refracted_rays;
+    statistics->shadow_rays = counts.shadow_rays;
+    statistics->tir_rays = counts.tir_rays;
+    statistics->camera_hits = counts.camera_hits;
+    statistics->largest_depth = counts.largest_depth;
+    return TURNER_OK;
+}
+
+static enum turner_result draw_on_device(struct turner_image *image,
+                                         const struct turner_scene *scene,
+                                         const struct turner_render_options *options,
+                                         struct turner_statistics *statistics)
+{
+    struct turner_gpu gpu;
+    struct turner_renderer renderer = {0};
+    enum turner_result result;
+    double start = turner_seconds();
+    TURNER_TRY_DONE(turner_gpu_create(&gpu, options->device, false));
+    statistics->seconds_device = turner_seconds() - start;
+    snprintf(statistics->device, sizeof statistics->device, "%s", gpu.info.name);
+    snprintf(statistics->driver, sizeof statistics->driver, "%s", gpu.info.driver);
+    TURNER_TRY_DONE(turner_renderer_create(&renderer, &gpu, scene, options, statistics));
+    statistics->traversal = renderer.ray_query ? "ray_query" : "bvh";
+    statistics->precision = "f32";
+    TURNER_TRY_DONE(turner_renderer_draw(&renderer, image, options, statistics));
+done:
+    turner_renderer_destroy(&renderer);
+    statistics->device_peak_bytes = gpu.memory_peak;
+    turner_gpu_destroy(&gpu);
+    return result;
+}
+
+enum turner_result turner_render(struct turner_image *image, const struct turner_scene *scene,
+                                 const struct turner_render_options *options,
+                                 struct turner_statistics *statistics)
+{
+    static const struct turner_render_options defaults;
+    struct turner_statistics unused;
+    if (!options)
+        options = &defaults;
+    if (!statistics)
+        statistics = &unused;
+    double seconds_parse = statistics == &unused ? 0 : statistics->seconds_parse;
+    memset(statistics, 0, sizeof *statistics);
+    statistics->seconds_parse = seconds_parse; /* whoever loaded the scene knows it */
+
+    memset(image, 0, sizeof *image);
+    TURNER_TRY(turner_image_create(image, scene->settings.width, scene->settings.height));
+    bool reference = options->device && strcmp(options->device, "reference") == 0;
+    TURNER_TRY(reference ? draw_by_reference(image, scene, options, statistics)
+                         : draw_on_device(image, scene, options, statistics));
+    inspect(image, statistics);
+    warn(statistics);
+    struct rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    statistics->host_peak_bytes = (uint64_t)usage.ru_maxrss * 1024;
+    return TURNER_OK;
+}

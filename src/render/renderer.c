@@ -1,0 +1,238 @@
+#include "render/renderer.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/memory.h"
+#include "gpu/include.h"
+
+/* A tile should take about this long: short for a watchdog and for Ctrl-C, long beside the cost of
+ * a submission. */
+#define TILE_SECONDS_LONG 0.4
+#define TILE_SECONDS_SHORT 0.1
+#define TILE_FIRST 128
+#define TILE_MAX 512
+#define TILE_MIN 16
+
+double turner_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+enum turner_result turner_choose_traversal(bool *ray_query, const struct turner_gpu_info *info,
+                                           enum turner_traversal wanted)
+{
+    /* a CPU is faster at our own hierarchy (docs/performance.md), hardware at its own */
+    *ray_query = wanted == TURNER_TRAVERSAL_RAY_QUERY ||
+                 (wanted == TURNER_TRAVERSAL_AUTO && info->ray_query && !info->software);
+    if (*ray_query && !info->ray_query)
+        return turner_fail(TURNER_DEVICE,
+                           "device \"%s\" cannot trace with ray queries: it lacks %s; use "
+                           "--traversal bvh, or auto", info->name, info->missing);
+    return TURNER_OK;
+}
+
+static enum turner_result compile(struct turner_renderer *renderer,
+                                  const struct turner_render_options *options,
+                                  struct turner_statistics *statistics)
+{
+    struct turner_shader_source source;
+    struct turner_spirv spirv = {0};
+    enum turner_result result;
+    TURNER_TRY_DONE(turner_shader_source_create(&source, "render.comp", options->shader_dirs,
+                                                options->shader_dir_count));
+    const char *defines[] = {"TURNER_RAY_QUERY"};
+    TURNER_TRY_DONE(turner_compile(&spirv, &source, defines, renderer->ray_query ? 1 : 0));
+    struct turner_constant constants[] = {
+        {TURNER_CONSTANT_NEEDS, renderer->needs.bits},
+        {TURNER_CONSTANT_STACK, renderer->needs.stack},
+        {TURNER_CONSTANT_BVH_STACK, renderer->flat.max_depth > 1 ? renderer->flat.max_depth : 1},
+    };
+    statistics->kernel_words = spirv.count;
+    TURNER_TRY_DONE(turner_program_create(&renderer->program, renderer->gpu, &spirv, constants,
+                                          sizeof constants / sizeof *constants, VK_NULL_HANDLE));
+done:
+    turner_spirv_destroy(&spirv);
+    turner_shader_source_destroy(&source);
+    return result;
+}
+
+static enum turner_result create(struct turner_renderer *renderer,
+                                 const struct turner_scene *scene,
+                                 const struct turner_render_options *options,
+                                 struct turner_statistics *statistics)
+{
+    struct turner_gpu *gpu = renderer->gpu;
+    TURNER_TRY(turner_choose_traversal(&renderer->ray_query, &gpu->info, options->traversal));
+    if (options->unspecialised)
+        renderer->needs.bits = TURNER_NEEDS_ALL;
+
+    double start = turner_seconds();
+    TURNER_TRY(turner_flat_create(&renderer->flat, scene,
+                                  renderer->ray_query ? TURNER_ORDER_MEDIAN : TURNER_ORDER_SAH));
+    double built = turner_seconds();
+    TURNER_TRY(compile(renderer, options, statistics));
+    double compiled = turner_seconds();
+    TURNER_TRY(turner_device_scene_create(&renderer->scene, gpu, scene, &renderer->flat,
+                                          &renderer->needs, renderer->ray_query));
+    if (renderer->ray_query)
+        TURNER_TRY(turner_program_bind_acceleration(&renderer->program, gpu, TURNER_BINDING_TLAS,
+                                                    renderer->scene.top.handle));
+    uint64_t edge = (uint64_t)(renderer->tile ? renderer->tile : TILE_MAX);
+    TURNER_TRY(turner_buffer_create(&renderer->pixels, gpu, edge * edge * 4 * sizeof(float), 0,
+                                    TURNER_MEMORY_HOST, "a tile of pixels"));
+    TURNER_TRY(turner_buffer_create(&renderer->counters, gpu, sizeof(struct turner_gpu_counters),
+                                    0, TURNER_MEMORY_HOST, "ray counters"));
+    statistics->seconds_build = built - start;
+    statistics->seconds_compile = compiled - built;
+    statistics->seconds_upload = turner_seconds() - compiled;
+    statistics->needs = renderer->needs.bits;
+    statistics->primitives = renderer->flat.primitive_count + scene->plane_count;
+    statistics->instances = scene->instance_count;
+    return TURNER_OK;
+}
+
+enum turner_result turner_renderer_create(struct turner_renderer *renderer, struct turner_gpu *gpu,
+                                          const struct turner_scene *scene,
+                                          const struct turner_render_options *options,
+                                          struct turner_statistics *statistics)
+{
+    memset(renderer, 0, sizeof *renderer);
+    renderer->gpu = gpu;
+    renderer->needs = turner_needs_of(scene);
+    renderer->width = scene->settings.width;
+    renderer->height = scene->settings.height;
+    renderer->spp = scene->settings.spp;
+    renderer->tile = options->tile;
+    enum turner_result result = create(renderer, scene, options, statistics);
+    if (result != TURNER_OK)
+        turner_renderer_destroy(renderer);
+    return result;
+}
+
+void turner_renderer_destroy(struct turner_renderer *renderer)
+{
+    struct turner_gpu *gpu = renderer->gpu;
+    if (!gpu)
+        return;
+    turner_buffer_destroy(gpu, &renderer->counters);
+    turner_buffer_destroy(gpu, &renderer->pixels);
+    turner_device_scene_destroy(gpu, &renderer->scene);
+    turner_program_destroy(gpu, &renderer->program);
+    turner_flat_destroy(&renderer->flat);
+    memset(renderer, 0, sizeof *renderer);
+}
+
+struct tile {
+    int x, y, width, height;
+};
+
+static enum turner_result trace_sample(struct turner_renderer *renderer, struct tile tile,
+                                       int sample)
+{
+    double sample_x, sample_y;
+    turner_sample_position(&sample_x, &sample_y, sample, renderer->spp);
+    struct turner_gpu_dispatch push = {
+        .scene = renderer->scene.arrays[TURNER_ARRAY_SCENE].address,
+        .pixels = renderer->pixels.address,
+        .counters = renderer->counters.address,
+        .tile_x = (uint32_t)tile.x,
+        .tile_y = (uint32_t)tile.y,
+        .tile_width = (uint32_t)tile.width,
+        .tile_height = (uint32_t)tile.height,
+        .sample_x = (float)sample_x,
+        .sample_y = (float)sample_y,
+        .first = sample == 0,
+    };
+    VkCommandBuffer commands;
+    TURNER_TRY(turner_gpu_begin(renderer->gpu, &commands));
+    turner_program_dispatch(commands, &renderer->program, &push,
+                            ((uint32_t)tile.width + TURNER_WORKGROUP - 1) / TURNER_WORKGROUP,
+                            ((uint32_t)tile.height + TURNER_WORKGROUP - 1) / TURNER_WORKGROUP, 1);
+    return turner_gpu_submit_wait(renderer->gpu, commands);
+}
+
+/* The mean of the samples into the picture. */
+static void read_back(const struct turner_renderer *renderer, struct turner_image *image,
+                      struct tile tile)
+{
+    const float *from = renderer->pixels.mapped;
+    float samples = (float)renderer->spp;
+    for (int y = 0; y < tile.height; y++) {
+        float *to = image->rgba +
+                    4 * ((size_t)(tile.y + y) * (size_t)image->width + (size_t)tile.x);
+        for (int i = 0; i < 4 * tile.width; i++)
+            *to++ = *from++ / samples;
+    }
+}
+
+static void add_counters(const struct turner_renderer *renderer,
+                         struct turner_statistics *statistics)
+{
+    const struct turner_gpu_counters *c = renderer->counters.mapped;
+    uint64_t counts[TURNER_COUNTS];
+    for (int i = 0; i < TURNER_COUNTS; i++)
+        counts[i] = c->low[i] | (uint64_t)c->high[i] << 32;
+    statistics->camera_rays += counts[TURNER_COUNT_CAMERA];
+    statistics->reflected_rays += counts[TURNER_COUNT_REFLECTED];
+    statistics->refracted_rays += counts[TURNER_COUNT_REFRACTED];
+    statistics->shadow_rays += counts[TURNER_COUNT_SHADOW];
+    statistics->tir_rays += counts[TURNER_COUNT_TIR];
+    statistics->camera_hits += counts[TURNER_COUNT_CAMERA_HITS];
+    statistics->unfinished += counts[TURNER_COUNT_UNFINISHED];
+    if ((int)c->largest_depth > statistics->largest_depth)
+        statistics->largest_depth = (int)c->largest_depth;
+}
+
+static bool report(const struct turner_render_options *options, double share)
+{
+    return !options->progress || options->progress(share, options->user);
+}
+
+enum turner_result turner_renderer_draw(struct turner_renderer *renderer,
+                                        struct turner_image *image,
+                                        const struct turner_render_options *options,
+                                        struct turner_statistics *statistics)
+{
+    memset(renderer->counters.mapped, 0, sizeof(struct turner_gpu_counters));
+    int edge = renderer->tile ? renderer->tile : TILE_FIRST;
+    double pixels = (double)image->width * image->height, done = 0;
+    if (!report(options, 0))
+        return turner_fail(TURNER_INTERRUPTED, "interrupted");
+
+    /* rows of tiles; the edge changes between rows only, so that tiles cover the picture */
+    for (int y = 0, next_edge = edge; y < image->height; y += edge, edge = next_edge) {
+        for (int x = 0; x < image->width; x += edge) {
+            struct tile tile = {x, y, edge, edge};
+            if (tile.width > image->width - x)
+                tile.width = image->width - x;
+            if (tile.height > image->height - y)
+                tile.height = image->height - y;
+            double start = turner_seconds();
+            for (int sample = 0; sample < renderer->spp; sample++) {
+                double before = turner_seconds();
+                TURNER_TRY(trace_sample(renderer, tile, sample));
+                double seconds = turner_seconds() - before;
+                if (!renderer->tile && seconds > TILE_SECONDS_LONG && edge > TILE_MIN)
+                    next_edge = edge / 2;
+                else if (!renderer->tile && seconds < TILE_SECONDS_SHORT && edge < TILE_MAX &&
+                         next_edge >= edge)
+                    next_edge = edge * 2;
+                double share =
+                    done + (double)tile.width * tile.height * (sample + 1) / renderer->spp;
+                if (!report(options, share / pixels))
+                    return turner_fail(TURNER_INTERRUPTED, "interrupted");
+            }
+            double traced = turner_seconds();
+            read_back(renderer, image, tile);
+            statistics->seconds_trace += traced - start;
+            statistics->seconds_read_back += turner_seconds() - traced;
+            done += (double)tile.width * tile.height;
+        }
+    }
+    add_counters(renderer, statistics);
+    return TURNER_OK;
+}

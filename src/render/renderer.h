@@ -1,0 +1,44 @@
+/* A scene made ready on a device, and its pictures. turner_render (src/turner.h) is one of these
+ * from beginning to end. */
+#ifndef TURNER_RENDER_RENDERER_H
+#define TURNER_RENDER_RENDERER_H
+
+#include "gpu/program.h"
+#include "render/device_scene.h"
+
+struct turner_renderer {
+    struct turner_gpu *gpu; /* not owned */
+    bool ray_query;
+    struct turner_needs needs;
+    struct turner_flat flat;
+    struct turner_device_scene scene;
+    struct turner_program program;
+    struct turner_buffer pixels;   /* one tile */
+    struct turner_buffer counters;
+    int width, height, spp;
+    int tile; /* fixed edge in pixels, or 0: follows the time a tile takes */
+};
+
+/* Which traversal a device gets; TURNER_DEVICE names the missing extension when `wanted` is
+ * ray_query and the device cannot. */
+enum turner_result turner_choose_traversal(bool *ray_query, const struct turner_gpu_info *info,
+                                           enum turner_traversal wanted);
+
+/* Builds, compiles and uploads; fills the times and sizes of `statistics`. */
+enum turner_result turner_renderer_create(struct turner_renderer *renderer, struct turner_gpu *gpu,
+                                          const struct turner_scene *scene,
+                                          const struct turner_render_options *options,
+                                          struct turner_statistics *statistics);
+void turner_renderer_destroy(struct turner_renderer *renderer);
+
+/* Traces the picture into `image` (width × height of the scene's settings); adds to the counts and
+ * times of `statistics`. */
+enum turner_result turner_renderer_draw(struct turner_renderer *renderer,
+                                        struct turner_image *image,
+                                        const struct turner_render_options *options,
+                                        struct turner_statistics *statistics);
+
+/* Seconds of a clock that only goes forward. */
+double turner_seconds(void);
+
+#endif
