@@ -66,7 +66,7 @@ static enum turner_result run(FILE *input, FILE *output, char *const arguments[]
     if (WIFEXITED(status) && (WEXITSTATUS(status) == NO_PACKAGE || WEXITSTATUS(status) == 127)) {
         return turner_fail(TURNER_BAD_INPUT, "--flip needs python3 with the package "
                                              "flip-evaluator; install it with \"python3 -m pip "
-                                             "install flip-evaluator\"");
+                                             "install flip-evaluator numpy\"");
     }
     return turner_fail(TURNER_BAD_INPUT, "--flip: flip-evaluator failed, its own message stands "
                                          "above; leave --flip out or update the package");

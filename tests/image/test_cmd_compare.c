@@ -231,7 +231,7 @@ static void flip_tool(void **state)
     says(message, "python3");
     fake_python("exit 86");
     assert_int_equal(compare(a, a, "--flip", NULL), TURNER_BAD_INPUT);
-    says(message, "pip install flip-evaluator");
+    says(message, "pip install flip-evaluator numpy");
     fake_python("exit 1");
     assert_int_equal(compare(a, a, "--flip", NULL), TURNER_BAD_INPUT);
     fake_python("echo nothing");
@@ -246,8 +246,8 @@ static void flip_tool(void **state)
 static void flip_itself(void **state)
 {
     (void)state;
-    if (system("python3 -c 'import flip_evaluator' 2>/dev/null") != 0) {
-        print_message("skipped: python3 has no package flip-evaluator\n");
+    if (system("python3 -c 'import flip_evaluator, numpy' 2>/dev/null") != 0) {
+        print_message("skipped: python3 has no packages flip-evaluator and numpy\n");
         skip();
     }
     const char *a = picture("a.exr", .25f, 50, .5f), *b = picture("b.exr", .25f, 0, 0);
