@@ -48,6 +48,15 @@ static void select_half(const struct builder *builder, uint32_t *items, uint32_t
     }
 }
 
+static void set_box(struct turner_tree_node *node, const struct turner_box *box)
+{
+    double pad = 16 * DBL_EPSILON * (double)fmaxl(magnitude(box->low), magnitude(box->high));
+    for (int axis = 0; axis < 3; axis++) {
+        node->bounds[0][axis] = (double)coordinate(box->low, axis) - pad;
+        node->bounds[1][axis] = (double)coordinate(box->high, axis) + pad;
+    }
+}
+
 static void build(const struct builder *builder, uint32_t index, uint32_t first, uint32_t count)
 {
     struct turner_tree *tree = builder->tree;
@@ -59,7 +68,9 @@ static void build(const struct builder *builder, uint32_t index, uint32_t first,
         turner_box_include(&box, item->high);
         turner_box_include(&middles, add(item->low, item->high));
     }
-    tree->nodes[index] = (struct turner_tree_node){box, first, count};
+    set_box(&tree->nodes[index], &box);
+    tree->nodes[index].first = first;
+    tree->nodes[index].count = count;
     if (count <= LEAF_ITEMS)
         return;
 
@@ -108,32 +119,44 @@ void turner_tree_destroy(struct turner_tree *tree)
 
 /* ---- walking ---- */
 
-/* Where the ray enters the box, if it meets it within [0, t_max]. The bounds are widened by more
- * than the rounding of this test and of the primitives' own: a box never hides what it holds. */
-static bool meets(const struct turner_box *box, const struct turner_ray *ray,
-                  turner_vector inverse, turner_real t_max, turner_real *entry)
+/* A ray in double. */
+struct rough_ray {
+    double origin[3], direction[3], inverse[3];
+};
+
+static struct rough_ray rough(const struct turner_ray *ray)
 {
-    const turner_real slack = 32 * LDBL_EPSILON;
-    turner_real near = 0, far = t_max;
+    struct rough_ray rough;
     for (int axis = 0; axis < 3; axis++) {
-        turner_real o = coordinate(ray->origin, axis);
-        turner_real low = coordinate(box->low, axis), high = coordinate(box->high, axis);
-        if (coordinate(ray->direction, axis) == 0) { /* 0·∞ is not a number: decide apart */
-            if (o < low || o > high)
+        double d = (double)coordinate(ray->direction, axis);
+        rough.origin[axis] = (double)coordinate(ray->origin, axis);
+        rough.direction[axis] = fabs(d) > DBL_MIN * 16 ? d : 0; /* what has a finite inverse */
+        rough.inverse[axis] = 1 / d;
+    }
+    return rough;
+}
+
+/* Where the ray enters the box, if it meets it within [0, t_max]. The interval is widened by more
+ * than the rounding of this test: a box never hides what it holds. */
+static bool meets(const struct turner_tree_node *box, const struct rough_ray *ray, double t_max,
+                  double *entry)
+{
+    const double wider = 1 + 16 * DBL_EPSILON;
+    double near = 0, far = t_max;
+    for (int axis = 0; axis < 3; axis++) {
+        double o = ray->origin[axis], d = ray->direction[axis];
+        if (d == 0) { /* 0·∞ is not a number: decide apart */
+            if (o < box->bounds[0][axis] || o > box->bounds[1][axis])
                 return false;
             continue;
         }
-        turner_real to_low = (low - o) * coordinate(inverse, axis);
-        turner_real to_high = (high - o) * coordinate(inverse, axis);
-        turner_real enter = to_low < to_high ? to_low : to_high;
-        turner_real leave = to_low < to_high ? to_high : to_low;
-        enter -= fabsl(enter) * slack;
-        leave += fabsl(leave) * slack;
+        double enter = (box->bounds[d < 0][axis] - o) * ray->inverse[axis];
+        double leave = (box->bounds[d > 0][axis] - o) * ray->inverse[axis];
         near = enter > near ? enter : near;
         far = leave < far ? leave : far;
     }
-    *entry = near;
-    return near <= far;
+    *entry = near / wider;
+    return *entry <= far * wider;
 }
 
 void turner_tree_walk(const struct turner_tree *tree, const struct turner_ray *ray,
@@ -141,13 +164,13 @@ void turner_tree_walk(const struct turner_tree *tree, const struct turner_ray *r
 {
     struct {
         uint32_t node;
-        turner_real entry;
+        double entry;
     } stack[DEPTH_MAX + 1];
     int height = 0;
-    turner_vector d = ray->direction, inverse = vector(1 / d.x, 1 / d.y, 1 / d.z);
-    turner_real entry;
+    struct rough_ray rough_ray = rough(ray);
+    double entry;
 
-    if (!tree->nodes || !meets(&tree->nodes[0].box, ray, inverse, t_max, &entry))
+    if (!tree->nodes || !meets(&tree->nodes[0], &rough_ray, (double)t_max, &entry))
         return;
     stack[height].entry = entry;
     stack[height++].node = 0;
@@ -162,10 +185,10 @@ void turner_tree_walk(const struct turner_tree *tree, const struct turner_ray *r
         }
         if (node->count > 0)
             continue;
-        turner_real entries[2];
+        double entries[2];
         bool met[2];
         for (uint32_t i = 0; i < 2; i++)
-            met[i] = meets(&tree->nodes[node->first + i].box, ray, inverse, t_max, &entries[i]);
+            met[i] = meets(&tree->nodes[node->first + i], &rough_ray, (double)t_max, &entries[i]);
         uint32_t later = met[0] && met[1] && entries[1] < entries[0] ? 0 : 1; /* the farther one */
         for (uint32_t i = 0; i < 2; i++) {
             uint32_t child = i == 0 ? later : 1 - later;

@@ -1,4 +1,8 @@
-/* A tree of boxes: each node is halved at the median of its items' middles. */
+/* A tree of boxes: each node is halved at the median of its items' middles.
+ *
+ * Boxes only sort out what a ray cannot meet. They may thus be rough as long as they are never too
+ * small: the tree keeps them in double, widened by more than double's rounding, which is several
+ * times faster than extended precision. */
 #ifndef TURNER_REFERENCE_TREE_H
 #define TURNER_REFERENCE_TREE_H
 
@@ -21,7 +25,7 @@ static inline void turner_box_include(struct turner_box *box, turner_vector p)
 }
 
 struct turner_tree_node {
-    struct turner_box box;
+    double bounds[2][3]; /* low and high corner */
     uint32_t first; /* leaf: of its items in `items`; else the two children: first, first + 1 */
     uint32_t count; /* of items; 0 in an inner node */
 };

@@ -68,14 +68,6 @@ static struct turner_box box_of_primitive(const struct turner_world_group *group
     return box;
 }
 
-/* Widens a box by the rounding error of what is computed with numbers of its size. */
-static struct turner_box padded(struct turner_box box)
-{
-    turner_real size = fmaxl(magnitude(box.low), magnitude(box.high));
-    turner_vector pad = grey(64 * LDBL_EPSILON * size);
-    return (struct turner_box){sub(box.low, pad), add(box.high, pad)};
-}
-
 /* ---- making ready ---- */
 
 static void create_group(struct turner_world_group *group, const struct turner_group *g)
@@ -89,7 +81,7 @@ static void create_group(struct turner_world_group *group, const struct turner_g
     }
     struct turner_box *boxes = turner_calloc(count, sizeof *boxes);
     for (uint32_t i = 0; i < count; i++)
-        boxes[i] = padded(box_of_primitive(group, i));
+        boxes[i] = box_of_primitive(group, i);
     turner_tree_create(&group->tree, boxes, count);
     free(boxes);
 }
@@ -124,12 +116,14 @@ static struct turner_box box_of_instance(const struct turner_world *world,
     struct turner_box box = TURNER_BOX_EMPTY;
     if (!tree->nodes) /* an empty group: a box that no ray meets */
         return box_of_ball(grey(0), grey(-1));
-    turner_vector ends[2] = {tree->nodes[0].box.low, tree->nodes[0].box.high};
+    const double(*bounds)[3] = tree->nodes[0].bounds;
+    turner_real size = 0;
     for (int corner = 0; corner < 8; corner++) {
-        turner_vector p = vector(ends[corner & 1].x, ends[corner >> 1 & 1].y, ends[corner >> 2].z);
+        turner_vector p =
+            vector(bounds[corner & 1][0], bounds[corner >> 1 & 1][1], bounds[corner >> 2][2]);
         turner_box_include(&box, map_point(&instance->to_world, p));
+        size = fmaxl(size, magnitude(p));
     }
-    turner_real size = fmaxl(magnitude(ends[0]), magnitude(ends[1]));
     turner_vector pad = grey(64 * LDBL_EPSILON * map_magnitude(&instance->to_world, size));
     return (struct turner_box){sub(box.low, pad), add(box.high, pad)};
 }
