@@ -205,10 +205,22 @@ static void set_background(struct turner_gpu_scene *block,
     block->background_image = background->image;
 }
 
+/* Nodes one ray may visit, or candidates it may be offered by the device's traversal. */
+static uint32_t max_visits(const struct turner_flat *flat, bool ray_query)
+{
+    uint64_t visits = ray_query ? 0 : flat->max_visits;
+    for (size_t i = 0; i < flat->instance_count && ray_query; i++) {
+        const struct turner_flat_group *group = &flat->groups[flat->instance_groups[i]];
+        visits += group->triangle_count + (uint64_t)group->box_count;
+    }
+    /* at least one turn, in which a ray query that has nothing to offer ends */
+    return visits < UINT32_MAX ? (uint32_t)visits + 1 : UINT32_MAX;
+}
+
 static enum turner_result upload_scene(struct turner_device_scene *device, struct turner_gpu *gpu,
                                        const struct turner_scene *scene,
                                        const struct turner_flat *flat,
-                                       const struct turner_needs *needs)
+                                       const struct turner_needs *needs, bool ray_query)
 {
     const struct turner_buffer *arrays = device->arrays;
     const struct turner_settings *settings = &scene->settings;
@@ -229,7 +241,7 @@ static enum turner_result upload_scene(struct turner_device_scene *device, struc
         .light_count = (uint32_t)scene->light_count,
         .max_depth = (uint32_t)settings->depth,
         .max_steps = needs->max_steps,
-        .max_visits = flat->max_visits < UINT32_MAX ? (uint32_t)flat->max_visits : UINT32_MAX,
+        .max_visits = max_visits(flat, ray_query),
         .max_crossings = needs->max_crossings,
         .shading = settings->shading == TURNER_SHADING_PHONG ? TURNER_NEEDS_PHONG
                                                              : TURNER_NEEDS_CONSERVING,
@@ -269,7 +281,7 @@ enum turner_result turner_device_scene_create(struct turner_device_scene *device
     TURNER_TRY(upload_images(device, gpu, scene));
     if (ray_query)
         TURNER_TRY(turner_device_scene_build(device, gpu, flat));
-    return upload_scene(device, gpu, scene, flat, needs);
+    return upload_scene(device, gpu, scene, flat, needs, ray_query);
 }
 
 void turner_device_scene_destroy(struct turner_gpu *gpu, struct turner_device_scene *device)
