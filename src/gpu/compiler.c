@@ -76,10 +76,13 @@ static void report_line(struct report *report, const struct turner_shader_source
         text_length--;
     if (text_length <= 0 || (line == 0 && isdigit((unsigned char)*text)))
         return; /* "2 compilation errors.  No code generated." */
-    if (strncmp(text, "'' : ", 5) == 0) { /* no token to blame */
-        text += 5;
-        text_length -= 5;
+    if (strncmp(text, "'' :", 4) == 0) { /* no token to blame */
+        int skipped = 4 + (int)strspn(text + 4, " ");
+        text += skipped;
+        text_length -= skipped;
     }
+    if (strstr(text, "compilation terminated") == text)
+        return;
     if (++report->errors > SHOWN_ERRORS)
         return;
     if (report->length)
@@ -161,7 +164,8 @@ enum turner_result turner_compile(struct turner_spirv *out,
         return turner_fail(TURNER_DEVICE, "glslang cannot be initialised");
 
     enum turner_result result = TURNER_OK;
-    const int messages = GLSLANG_MSG_SPV_RULES_BIT | GLSLANG_MSG_VULKAN_RULES_BIT;
+    const int messages = GLSLANG_MSG_SPV_RULES_BIT | GLSLANG_MSG_VULKAN_RULES_BIT |
+                         GLSLANG_MSG_CASCADING_ERRORS_BIT; /* not only the first error */
     const glslang_input_t input = {
         .language = GLSLANG_SOURCE_GLSL,
         .stage = GLSLANG_STAGE_COMPUTE,
