@@ -4,11 +4,9 @@ set(flags)
 if(TURNER_SANITIZE)
     set(flags "-fsanitize=address,undefined")
 endif()
-if(TARGET turner)
 add_test(NAME package COMMAND ${CMAKE_COMMAND}
     -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${CMAKE_CURRENT_LIST_DIR}
     -DWORK=${PROJECT_BINARY_DIR}/tests/package -DVERSION=${PROJECT_VERSION}
     -DLIBDIR=${CMAKE_INSTALL_LIBDIR} -DC_COMPILER=${CMAKE_C_COMPILER}
     -DCXX_COMPILER=${CMAKE_CXX_COMPILER} -DFLAGS=${flags}
     -P ${CMAKE_CURRENT_LIST_DIR}/run.cmake)
-endif()
