@@ -115,13 +115,14 @@ enum turner_result turner_program_create(struct turner_program *program, struct 
         .pMapEntries = entries, .dataSize = count * sizeof *constants, .pData = constants};
     for (size_t i = 0; i < count; i++) {
         for (size_t j = 0; j < reflection.constant_count; j++) {
-            if (reflection.constant_ids[j] == constants[i].id)
-                entries[specialisation.mapEntryCount++] = (VkSpecializationMapEntry){
-                    .constantID = constants[i].id,
-                    .offset = (uint32_t)((const char *)&constants[i].value -
-                                         (const char *)constants),
-                    .size = sizeof constants[i].value,
-                };
+            if (reflection.constant_ids[j] != constants[i].id)
+                continue;
+            entries[specialisation.mapEntryCount++] = (VkSpecializationMapEntry){
+                .constantID = constants[i].id,
+                .offset = (uint32_t)((const char *)&constants[i].value - (const char *)constants),
+                .size = sizeof constants[i].value,
+            };
+            break; /* the same id may be there twice */
         }
         for (int axis = 0; axis < 3; axis++) {
             if (reflection.local_size_id[axis] == constants[i].id)

@@ -25,7 +25,7 @@ struct turner_reflection {
     uint32_t push_size;      /* bytes of the push constant block; 0 without */
     uint32_t local_size[3];  /* defaults, where a constant gives it */
     uint32_t local_size_id[3]; /* that constant's id; UINT32_MAX when fixed */
-    uint32_t *constant_ids;  /* specialisation constants the shader has */
+    uint32_t *constant_ids;  /* specialisation constants the shader has; may repeat */
     size_t constant_count;
 };
 
