@@ -135,9 +135,6 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
         bool met = search.found && !(shadow && search.blocked);
         bool real = met;
         crossing_t crossing = crossing_t(media, media, true);
-        vec3 travelled = vec3(1.0);
-        if (NEEDS_ANY(TURNER_NEEDS_MEDIA))
-            travelled = media_transmittance(media, search.hit.t);
         if (met) {
             surface = surface_of(ray, search.hit);
             material = material_at(surface);
@@ -147,6 +144,9 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
                 real = crossing.real;
             }
         }
+        vec3 travelled = vec3(1.0);
+        if (NEEDS_ANY(TURNER_NEEDS_MEDIA))
+            travelled = media_transmittance(crossing.before, search.hit.t);
         if (met && (shadow || !real) && ++crossings > scene.max_crossings) {
             counts.low[TURNER_COUNT_UNFINISHED]++;
             break;
@@ -193,7 +193,11 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
                                                       crossing.before, crossing.after);
                     vec3 w_r = path.weight * sent.w_r, w_t = path.weight * sent.w_t;
                     uint depth = path.depth + 1u;
-                    if (follow(w_r, depth, scene.spd_rays != 0u && surface.transmissive, pruned)) {
+                    // the SPD's counts take every glass for a mirror too, and know no weight
+                    bool spd = scene.spd_rays != 0u;
+                    bool spd_r = spd && (surface.transmissive || sent.w_r != vec3(0.0));
+                    bool spd_t = spd && sent.w_t != vec3(0.0);
+                    if (follow(w_r, depth, spd_r, pruned)) {
                         next = path_t(spawn_ray(surface, sent.reflected, INFINITY), w_r, depth,
                                       crossing.before);
                         has_next = true;
@@ -201,7 +205,7 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
                         if (sent.total)
                             counts.low[TURNER_COUNT_TIR]++;
                     }
-                    if (NEEDS_ANY(TURNER_NEEDS_TRANSMISSION) && follow(w_t, depth, false, pruned)) {
+                    if (NEEDS_ANY(TURNER_NEEDS_TRANSMISSION) && follow(w_t, depth, spd_t, pruned)) {
                         path_t beyond = path_t(spawn_ray(surface, sent.refracted, INFINITY), w_t,
                                                depth, crossing.after);
                         counts.low[TURNER_COUNT_REFRACTED]++;

@@ -24,6 +24,12 @@ static bool transmits(const struct turner_material *material)
     return material->k_t.x > 0 || material->k_t.y > 0 || material->k_t.z > 0;
 }
 
+/* Whether light that falls on the surface leaves it by Phong's terms; otherwise none is asked. */
+static bool reflects_light(const struct turner_material *material)
+{
+    return largest(widen(material->k_d)) > 0 || largest(widen(material->k_s)) > 0;
+}
+
 /* Fills `point` for a hit of a ray that travels in `media`. */
 static void meet(struct shading_point *point, const struct turner_tracer *tracer,
                  const struct turner_ray *ray, const struct turner_hit *hit,
@@ -94,6 +100,8 @@ static turner_vector local_illumination(struct turner_tracer *tracer,
     turner_vector radiance =
         add(widen(material->k_e), mul(mul(widen(material->k_a), color), widen(scene->ambient)));
 
+    if (!reflects_light(material))
+        return radiance;
     for (size_t j = 0; j < scene->light_count; j++) {
         struct turner_illumination light =
             turner_light_arrive(&scene->lights[j], point->surface.p);
