@@ -28,10 +28,12 @@ static const char help[] =
     "\n"
     "  -m, --heatmap FILE    write where they differ: black equal, through red and yellow to white,\n"
     "                        the largest difference; magenta where a value is not finite\n"
+    "      --preview FOLDER  write both as 8-bit PNG, for dashboards, into FOLDER: picture.png and\n"
+    "                        reference.png\n"
     "      --linear          take the values of 8/16-bit pictures as they are stored; otherwise the\n"
     "                        sRGB curve is taken off first, and differences are of linear radiance\n"
     "      --flip            also the mean FLIP error, what an eye notices (needs python3 with the\n"
-    "                        package flip-evaluator; fails without it)\n"
+    "                        package flip-evaluator and numpy; fails without)\n"
     "      --json FILE       the figures as JSON; \"-\" prints them instead of the report\n"
     "  -h, --help            this text\n"
     "\n"
@@ -46,7 +48,7 @@ struct options {
     double threshold, relative, max_rmse;
     double pixels; /* a count, or per cent */
     bool per_cent, linear, flip;
-    const char *heatmap, *json;
+    const char *heatmap, *json, *preview;
 };
 
 struct findings {
@@ -76,13 +78,13 @@ static enum turner_result parse_pixels(struct options *options, const char *text
 /* `*done` when --help was all there was to do. */
 static enum turner_result parse(struct options *options, int argc, char **argv, bool *done)
 {
-    enum { MAX_RMSE = 256, LINEAR, FLIP, JSON };
+    enum { MAX_RMSE = 256, LINEAR, FLIP, JSON, PREVIEW };
     static const struct option known[] = {
         {"threshold", required_argument, NULL, 't'}, {"relative", required_argument, NULL, 'r'},
         {"pixels", required_argument, NULL, 'n'},    {"max-rmse", required_argument, NULL, MAX_RMSE},
         {"heatmap", required_argument, NULL, 'm'},   {"linear", no_argument, NULL, LINEAR},
         {"flip", no_argument, NULL, FLIP},           {"json", required_argument, NULL, JSON},
-        {"help", no_argument, NULL, 'h'},            {0}};
+        {"preview", required_argument, NULL, PREVIEW}, {"help", no_argument, NULL, 'h'}, {0}};
     const double most = 1e30;
     *options = (struct options){.threshold = .004, .max_rmse = INFINITY};
     *done = false;
@@ -104,6 +106,7 @@ static enum turner_result parse(struct options *options, int argc, char **argv, 
         case LINEAR: options->linear = true; break;
         case FLIP: options->flip = true; break;
         case JSON: options->json = optarg; break;
+        case PREVIEW: options->preview = optarg; break;
         case 'h':
             fputs(help, stdout);
             *done = true;
@@ -215,6 +218,16 @@ static enum turner_result write_heatmap(const struct options *options, struct fi
     return result;
 }
 
+static enum turner_result write_preview(const struct options *options, const char *name,
+                                        const struct turner_image *image)
+{
+    char path[4096];
+    if (snprintf(path, sizeof path, "%s/%s", options->preview, name) >= (int)sizeof path)
+        return turner_fail(TURNER_USAGE, "--preview: the folder's name is too long");
+    return turner_image_write(image, path,
+                              &(struct turner_image_encoding){.linear = options->linear});
+}
+
 static enum turner_result judge(const struct options *options, struct findings *findings)
 {
     const struct turner_comparison *c = &findings->figures;
@@ -245,6 +258,10 @@ static enum turner_result compare(const struct options *options, const struct tu
                                   const struct turner_image *b)
 {
     struct findings findings = {.differ = true};
+    if (options->preview) {
+        TURNER_TRY(write_preview(options, "picture.png", a));
+        TURNER_TRY(write_preview(options, "reference.png", b));
+    }
     enum turner_result verdict = turner_image_compare(&findings.figures, a, b, options->threshold,
                                                       options->relative);
     if (verdict == TURNER_OK) {

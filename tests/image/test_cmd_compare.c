@@ -170,6 +170,22 @@ static void heat_map(void **state)
     assert_int_equal(compare(a, b, "--json", in_folder("nowhere/a.json"), NULL), TURNER_OUTPUT);
 }
 
+static void preview(void **state)
+{
+    (void)state;
+    const char *a = picture("a.exr", .5f, 0, 0), *b = picture("b.exr", 1, 0, 0);
+    assert_int_equal(compare(a, b, "--preview", folder, NULL), TURNER_DIFFERS);
+    static const struct { const char *name; int code; } expected[] = {
+        {"picture.png", 188}, {"reference.png", 255}}; /* under the sRGB curve */
+    for (int i = 0; i < 2; i++) {
+        struct turner_image image;
+        assert_int_equal(turner_image_read(&image, in_folder(expected[i].name), false), TURNER_OK);
+        assert_int_equal(lrintf(image.rgba[0] * 255), expected[i].code);
+        turner_image_destroy(&image);
+    }
+    assert_int_equal(compare(a, b, "--preview", in_folder("nowhere"), NULL), TURNER_OUTPUT);
+}
+
 static double number(const cJSON *json, const char *key)
 {
     const cJSON *item = cJSON_GetObjectItemCaseSensitive(json, key);
@@ -272,6 +288,7 @@ int main(void)
         IN_FOLDER(missing_and_unreadable),
         IN_FOLDER(wrong_command_lines),
         IN_FOLDER(heat_map),
+        IN_FOLDER(preview),
         IN_FOLDER(json_report),
         IN_FOLDER(curve_or_none),
         IN_FOLDER(flip_tool),
