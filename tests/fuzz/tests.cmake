@@ -1,6 +1,7 @@
 # Fuzzers. In a fuzz build (preset `fuzz`) each runs for a minute on a copy of its seeds; in other
 # builds the same source replays its seeds once, so that they always pass.
 set(turner_fuzz_folder ${CMAKE_CURRENT_LIST_DIR})
+add_custom_target(fuzzers) # all that the build preset `fuzz` makes
 if(TURNER_FUZZ)
     # asserts are part of what a fuzzer looks for, in optimised builds too
     target_compile_options(turner_flags INTERFACE -UNDEBUG)
@@ -16,6 +17,7 @@ function(turner_fuzz_target name source)
         set(FUZZ_CORPUS ${turner_fuzz_folder}/corpus/${name})
     endif()
     add_executable(fuzz_${name} ${source})
+    add_dependencies(fuzzers fuzz_${name})
     target_link_libraries(fuzz_${name} PRIVATE turner_flags ${FUZZ_LIBRARIES})
     foreach(layer IN LISTS FUZZ_LAYERS)
         target_link_libraries(fuzz_${name} PRIVATE turner_${layer} ${turner_${layer}_libraries})
