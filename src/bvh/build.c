@@ -1,5 +1,4 @@
 #include <assert.h>
-#include <float.h>
 #include <math.h>
 
 #include "bvh/build.h"
@@ -16,10 +15,10 @@ struct builder {
 
 /* Bins are numbered by (centre − lo)·scale. */
 struct split {
-    int axis;     /* −1: no plane between bins has items on both sides */
-    int bin;      /* the first one on the right */
+    int axis; /* −1: no plane between bins has items on both sides */
+    int bin;  /* the first one on the right */
     float lo, scale;
-    double cost;  /* Σ area · items of both sides */
+    double cost; /* Σ area · items of both sides */
 };
 
 struct bin {
@@ -29,8 +28,8 @@ struct bin {
 
 static int bin_of(const struct turner_bvh_item *item, int axis, float lo, float scale)
 {
-    int bin = (int)((turner_bvh_center(item, axis) - lo) * scale);
-    return bin < BINS ? bin : BINS - 1;
+    float position = (turner_bvh_center(item, axis) - lo) * scale; /* ≥ 0, or NaN where ∞·0 */
+    return position < (float)BINS ? (int)position : BINS - 1;
 }
 
 static void grow(struct turner_bvh_bounds *bounds, const float lo[3], const float hi[3])
@@ -54,15 +53,16 @@ static double area(const struct turner_bvh_bounds *bounds)
 static void try_axis(struct split *best, const struct bin bins[BINS], int axis, float lo,
                      float scale)
 {
-    double right_cost[BINS]; /* of bins i … BINS − 1 together */
+    double right_cost[BINS], cost = -1; /* of bins i … BINS − 1 together; −1 without items */
     uint32_t right_count = 0, left_count = 0;
     struct turner_bvh_bounds right = TURNER_BVH_EMPTY, left = TURNER_BVH_EMPTY;
     for (int i = BINS - 1; i > 0; i--) {
         if (bins[i].count) {
             grow(&right, bins[i].bounds.lo, bins[i].bounds.hi);
             right_count += bins[i].count;
+            cost = area(&right) * right_count;
         }
-        right_cost[i] = right_count ? area(&right) * right_count : -1;
+        right_cost[i] = cost;
     }
     for (int i = 1; i < BINS; i++) {
         if (!bins[i - 1].count) /* the same split as the one before, or none */
@@ -71,7 +71,7 @@ static void try_axis(struct split *best, const struct bin bins[BINS], int axis, 
         left_count += bins[i - 1].count;
         if (right_cost[i] < 0)
             break;
-        double cost = area(&left) * left_count + right_cost[i];
+        cost = area(&left) * left_count + right_cost[i];
         if (best->axis < 0 || cost < best->cost)
             *best = (struct split){.axis = axis, .bin = i, .lo = lo, .scale = scale, .cost = cost};
     }
@@ -91,10 +91,8 @@ static struct split find_split(const struct turner_bvh_item *items, uint32_t cou
         for (int i = 0; i < BINS; i++)
             bins[axis][i] = (struct bin){.bounds = TURNER_BVH_EMPTY};
     }
-    for (int axis = 0; axis < 3; axis++) {
-        if (scale[axis] == 0)
-            continue;
-        for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
+        for (int axis = 0; axis < 3; axis++) {
             struct bin *bin = &bins[axis][bin_of(&items[i], axis, centers->lo[axis], scale[axis])];
             grow(&bin->bounds, items[i].lo, items[i].hi);
             bin->count++;
@@ -143,9 +141,9 @@ static void set_child(struct turner_gpu_node *node, int side,
     node->count[side] = count;
 }
 
-/* Makes items begin…end−1 a child of nodes[parent], which lies `level` nodes below the root's
- * parent. Returns the levels of nodes below that parent. With `root`, there is no parent and a node
- * is always made. */
+/* Makes a tree of items begin…end−1 and returns its levels of nodes. With `level` nodes above it,
+ * it becomes a child of nodes[parent], or a leaf of it; at level 0 there is no parent, and a node
+ * is always made. The recursion is as deep as the tree. */
 static uint32_t build_range(struct builder *b, uint32_t begin, uint32_t end, uint32_t level,
                             size_t parent, int side)
 {

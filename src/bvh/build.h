@@ -2,9 +2,11 @@
 #ifndef TURNER_BVH_BUILD_H
 #define TURNER_BVH_BUILD_H
 
+#include <float.h>
+
 #include "bvh/flat.h"
 
-#define TURNER_BVH_LEAF 4       /* primitives in a leaf, at most */
+#define TURNER_BVH_LEAF 4        /* primitives in a leaf, at most */
 #define TURNER_BVH_MAX_LEVELS 48 /* nodes from root to leaf, at most; 2^28 items need 28 */
 
 /* What is put into a tree: its bounds, and its index before the items were moved. 32 bytes. */
@@ -24,7 +26,7 @@ struct turner_bvh_bounds {
     float lo[3], hi[3];
 };
 
-#define TURNER_BVH_EMPTY                                                                           \
+#define TURNER_BVH_EMPTY \
     ((struct turner_bvh_bounds){{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}})
 
 /* Bounds of the items, and of their centres. */

@@ -16,10 +16,10 @@ enum turner_order {
 
 /* The primitives of one group among turner_flat.primitives. */
 struct turner_flat_group {
-    uint32_t root;           /* SAH: node; an empty group has an empty node */
+    uint32_t root;                      /* SAH: node; an empty group has an empty node */
     uint32_t triangles, triangle_count; /* MEDIAN: the range of its triangles */
     uint32_t boxes, box_count;          /* MEDIAN: the range of its spheres and cones */
-    float lo[3], hi[3];      /* bounds, rounded outwards; lo > hi when empty */
+    float lo[3], hi[3];                 /* bounds, rounded outwards; lo > hi when empty */
 };
 
 /* Counts are of elements. corners, normals and uvs are empty where no mesh has them; then both
@@ -51,6 +51,7 @@ void turner_flat_destroy(struct turner_flat *flat);
 /* Bounds of a primitive in its group, rounded outwards and then by two ulps of the largest
  * coordinate, so that every float intersection that the shaders accept lies inside. Infinite where
  * they do not fit a float. A cone's are exact: its discs reach r·sqrt(1 − n_i²) along axis i. */
-void turner_primitive_bounds(float lo[3], float hi[3], const struct turner_gpu_primitive *primitive);
+void turner_primitive_bounds(float lo[3], float hi[3],
+                             const struct turner_gpu_primitive *primitive);
 
 #endif

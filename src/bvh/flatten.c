@@ -14,8 +14,8 @@ uint32_t turner_flat_material(const struct turner_scene *scene, uint32_t materia
 bool turner_flat_needs_uvs(const struct turner_scene *scene, const struct turner_mesh *mesh,
                            bool patterned)
 {
-    return mesh->uvs && (patterned || scene->materials[mesh->material].pattern !=
-                                          TURNER_PATTERN_NONE);
+    return mesh->uvs &&
+           (patterned || scene->materials[mesh->material].pattern != TURNER_PATTERN_NONE);
 }
 
 static void round_point(float out[3], struct turner_vec3 point)

@@ -1,4 +1,3 @@
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -41,8 +40,7 @@ static void transform_box(double lo[3], double hi[3], const struct turner_affine
 }
 
 bool turner_flat_instance(struct turner_gpu_instance *instance, struct turner_bvh_bounds *world,
-                          const struct turner_affine *to_world,
-                          const struct turner_bvh_bounds *box)
+                          const struct turner_affine *to_world, const struct turner_bvh_bounds *box)
 {
     *world = *box;
     struct turner_affine to_group;

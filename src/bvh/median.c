@@ -1,5 +1,3 @@
-#include <float.h>
-
 #include "bvh/build.h"
 
 void turner_bvh_select(struct turner_bvh_item *items, uint32_t count, uint32_t k, int axis)

@@ -55,8 +55,12 @@ void add_cone(struct turner_group *group, struct turner_vec3 base, double base_r
               struct turner_vec3 apex, double apex_radius, bool capped, uint32_t material)
 {
     *TURNER_PUSH(group->cones, group->cone_count, group->cone_capacity) =
-        (struct turner_cone){.base = base, .base_radius = base_radius, .apex = apex,
-                             .apex_radius = apex_radius, .capped = capped, .material = material};
+        (struct turner_cone){.base = base,
+                             .base_radius = base_radius,
+                             .apex = apex,
+                             .apex_radius = apex_radius,
+                             .capped = capped,
+                             .material = material};
 }
 
 void add_instance(struct turner_scene *scene, uint32_t group, uint32_t material,
@@ -103,8 +107,8 @@ void add_ball(struct turner_group *group, uint32_t n, uint32_t material)
         for (uint32_t j = 0; j < n; j++) {
             double theta = pi * i / (n - 1), phi = 2 * pi * j / (n - 1);
             double r = 1 + 0.1 * sin(9 * theta) * cos(7 * phi);
-            mesh->positions[i * n + j] = turner_vec3_of(
-                r * sin(theta) * cos(phi), r * sin(theta) * sin(phi), r * cos(theta));
+            mesh->positions[i * n + j] = turner_vec3_of(r * sin(theta) * cos(phi),
+                                                        r * sin(theta) * sin(phi), r * cos(theta));
         }
     }
     uint32_t(*triangle)[3] = mesh->triangles;
@@ -142,10 +146,10 @@ void add_flake(struct turner_group *group, struct turner_vec3 center, double rad
     for (int i = 0; i < 9; i++) {
         double theta = i < 6 ? pi / 2 : pi / 4;
         double phi = i < 6 ? i * pi / 3 : (i - 6) * 2 * pi / 3 + pi / 6;
-        struct turner_vec3 flat = turner_vec3_add(turner_vec3_scale(u, cos(phi)),
-                                                  turner_vec3_scale(v, sin(phi)));
-        struct turner_vec3 direction = turner_vec3_add(turner_vec3_scale(up, cos(theta)),
-                                                       turner_vec3_scale(flat, sin(theta)));
+        struct turner_vec3 flat =
+            turner_vec3_add(turner_vec3_scale(u, cos(phi)), turner_vec3_scale(v, sin(phi)));
+        struct turner_vec3 direction =
+            turner_vec3_add(turner_vec3_scale(up, cos(theta)), turner_vec3_scale(flat, sin(theta)));
         add_flake(group, turner_vec3_add(center, turner_vec3_scale(direction, radius * 4 / 3)),
                   radius / 3, direction, level - 1);
     }

@@ -24,8 +24,7 @@ struct turner_mesh *add_soup(struct turner_group *group, uint64_t *state, uint32
 /* A closed, wavy ball of 2·(n − 1)² triangles. */
 void add_ball(struct turner_group *group, uint32_t n, uint32_t material);
 /* Spheres, cones and triangles in [−1, 1]³. */
-void fill_group(struct turner_group *group, uint64_t *state, int spheres, int cones,
-                int triangles);
+void fill_group(struct turner_group *group, uint64_t *state, int spheres, int cones, int triangles);
 /* A sphere with nine a third as large on it, and so on. */
 void add_flake(struct turner_group *group, struct turner_vec3 center, double radius,
                struct turner_vec3 up, int level);

@@ -57,9 +57,9 @@ static void check_cone(const struct turner_gpu_primitive *cone)
         double r = (double)cone->c[end];
         for (int i = 0; i < samples; i++) {
             double angle = 2 * acos(-1) * i / samples;
-            struct turner_vec3 p = turner_vec3_add(
-                ends[end], turner_vec3_add(turner_vec3_scale(u, r * cos(angle)),
-                                           turner_vec3_scale(v, r * sin(angle))));
+            struct turner_vec3 p =
+                turner_vec3_add(ends[end], turner_vec3_add(turner_vec3_scale(u, r * cos(angle)),
+                                                           turner_vec3_scale(v, r * sin(angle))));
             double point[3] = {p.x, p.y, p.z};
             assert_inside(lo, hi, point);
             for (int j = 0; j < 3; j++) {
@@ -92,7 +92,8 @@ static void test_cones(void **state)
         check_cone(&cone);
     }
     for (int axis = 0; axis < 3; axis++) {
-        struct turner_gpu_primitive cone = {.c = {2, 1}, .id = TURNER_KIND_CONE << TURNER_KIND_SHIFT};
+        struct turner_gpu_primitive cone = {.c = {2, 1},
+                                            .id = TURNER_KIND_CONE << TURNER_KIND_SHIFT};
         cone.b[axis] = 3;
         check_cone(&cone);
     }
@@ -179,8 +180,8 @@ static void test_thin(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cones),     cmocka_unit_test(test_cone_without_axis),
-        cmocka_unit_test(test_spheres),   cmocka_unit_test(test_triangles),
+        cmocka_unit_test(test_cones),   cmocka_unit_test(test_cone_without_axis),
+        cmocka_unit_test(test_spheres), cmocka_unit_test(test_triangles),
         cmocka_unit_test(test_thin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -21,9 +21,8 @@ static void assert_point(const float found[3], struct turner_vec3 point)
 }
 
 /* By kind and place in the group, the record among `count` from `first` on; each id once. */
-static const struct turner_gpu_primitive **sort_by_id(const struct turner_flat *flat,
-                                                      const struct turner_group *group,
-                                                      size_t first)
+static const struct turner_gpu_primitive **
+sort_by_id(const struct turner_flat *flat, const struct turner_group *group, size_t first)
 {
     size_t count = turner_group_primitive_count(group);
     size_t starts[3] = {0, group->sphere_count, group->sphere_count + group->cone_count};
@@ -138,8 +137,7 @@ static void check_attributes(const struct turner_flat *flat, const struct turner
             assert_in_range(vertex, 0, flat->vertex_count - 1);
             assert_memory_equal(flat->normals[vertex], normals ? mesh->normals[own] : none,
                                 sizeof *flat->normals);
-            assert_memory_equal(flat->uvs[vertex], uvs ? mesh->uvs[own] : none,
-                                sizeof *flat->uvs);
+            assert_memory_equal(flat->uvs[vertex], uvs ? mesh->uvs[own] : none, sizeof *flat->uvs);
         }
     }
     assert_int_equal(seen, mesh->triangle_count);
@@ -151,9 +149,9 @@ static void test_attributes(void **state)
     uint64_t random = 32;
     struct turner_scene *scene = make_scene();
     struct turner_group *group = &scene->groups[0];
-    add_soup(group, &random, 10, 0.2, 2);                           /* pattern, but no uvs */
+    add_soup(group, &random, 10, 0.2, 2); /* pattern, but no uvs */
     give_normals(add_soup(group, &random, 20, 0.2, 0), &random);
-    give_uvs(add_soup(group, &random, 30, 0.2, 0), &random);        /* uvs, but no pattern */
+    give_uvs(add_soup(group, &random, 30, 0.2, 0), &random); /* uvs, but no pattern */
     give_uvs(add_soup(group, &random, 40, 0.2, 2), &random);
     struct turner_mesh *both = add_soup(group, &random, 50, 0.2, 2);
     give_uvs(both, &random);
@@ -249,8 +247,8 @@ static void test_spawn_scale(void **state)
                 p[j] = (double)(corner >> j & 1 ? bounds->hi[j] : bounds->lo[j]);
             for (int row = 0; row < 3; row++) {
                 const float *m = instance->to_world + 4 * row;
-                world[row] = (double)m[0] * p[0] + (double)m[1] * p[1] + (double)m[2] * p[2] +
-                             (double)m[3];
+                world[row] =
+                    (double)m[0] * p[0] + (double)m[1] * p[1] + (double)m[2] * p[2] + (double)m[3];
             }
             for (int row = 0; row < 3; row++) {
                 const float *m = instance->to_group + 4 * row;
@@ -301,8 +299,7 @@ static void test_refused_numbers(void **state)
         scene = make_scene();
         group = add_group(scene);
         add_sphere(&scene->groups[group], turner_vec3_of(0, 0, 0), 1, 0);
-        add_instance(scene, group, TURNER_NONE,
-                     make_transform(scales[i], turner_vec3_of(0, 0, 0)));
+        add_instance(scene, group, TURNER_NONE, make_transform(scales[i], turner_vec3_of(0, 0, 0)));
         assert_refused(scene, TURNER_BAD_INPUT, "instance 0");
     }
 }
@@ -323,9 +320,12 @@ static void test_refused_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_records),         cmocka_unit_test(test_attributes),
-        cmocka_unit_test(test_pattern_of_instance), cmocka_unit_test(test_instances),
-        cmocka_unit_test(test_spawn_scale),     cmocka_unit_test(test_refused_numbers),
+        cmocka_unit_test(test_records),
+        cmocka_unit_test(test_attributes),
+        cmocka_unit_test(test_pattern_of_instance),
+        cmocka_unit_test(test_instances),
+        cmocka_unit_test(test_spawn_scale),
+        cmocka_unit_test(test_refused_numbers),
         cmocka_unit_test(test_refused_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

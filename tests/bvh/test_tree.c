@@ -149,14 +149,22 @@ static void assert_same(const struct turner_flat *a, const struct turner_flat *b
 
 static void check_scene(struct turner_scene *scene)
 {
-    struct turner_flat flat, again;
+    struct turner_flat flat;
     assert_int_equal(turner_flat_create(&flat, scene, TURNER_ORDER_SAH), TURNER_OK);
     check_trees(&flat, scene);
+    turner_flat_destroy(&flat);
+    turner_scene_destroy(scene);
+}
+
+static void check_twice(struct turner_scene *scene)
+{
+    struct turner_flat flat, again;
+    assert_int_equal(turner_flat_create(&flat, scene, TURNER_ORDER_SAH), TURNER_OK);
     assert_int_equal(turner_flat_create(&again, scene, TURNER_ORDER_SAH), TURNER_OK);
     assert_same(&flat, &again);
     turner_flat_destroy(&flat);
     turner_flat_destroy(&again);
-    turner_scene_destroy(scene);
+    check_scene(scene);
 }
 
 static void test_empty(void **state)
@@ -208,7 +216,7 @@ static void test_random(void **state)
                              make_transform(pow(10, random_in(&random, -3, 3)),
                                             random_point(&random, -100, 100)));
         }
-        check_scene(scene);
+        check_twice(scene);
     }
 }
 
@@ -222,8 +230,9 @@ static void test_coincident(void **state)
     assert_int_equal(turner_flat_create(&flat, scene, TURNER_ORDER_SAH), TURNER_OK);
     /* halving: 100000 / 4 leaves need 15 levels */
     assert_int_equal(flat.max_depth, 1 + 1 + 15);
+    check_trees(&flat, scene);
     turner_flat_destroy(&flat);
-    check_scene(scene);
+    turner_scene_destroy(scene);
 }
 
 static void test_coincident_instances(void **state)
@@ -348,7 +357,7 @@ static void test_median_order(void **state)
     turner_scene_destroy(scene);
 }
 
-static void print_time(const char *name, const struct turner_scene *scene)
+static void check_and_print(const char *name, struct turner_scene *scene, size_t most_bytes)
 {
     for (int order = TURNER_ORDER_SAH; order <= TURNER_ORDER_MEDIAN; order++) {
         struct turner_flat flat;
@@ -356,15 +365,19 @@ static void print_time(const char *name, const struct turner_scene *scene)
         clock_gettime(CLOCK_MONOTONIC, &start);
         assert_int_equal(turner_flat_create(&flat, scene, (enum turner_order)order), TURNER_OK);
         clock_gettime(CLOCK_MONOTONIC, &end);
-        double seconds = (double)(end.tv_sec - start.tv_sec) +
-                         1e-9 * (double)(end.tv_nsec - start.tv_nsec);
-        size_t bytes = flat.primitive_count * sizeof *flat.primitives +
-                       flat.node_count * sizeof *flat.nodes;
+        double seconds =
+            (double)(end.tv_sec - start.tv_sec) + 1e-9 * (double)(end.tv_nsec - start.tv_nsec);
+        size_t bytes =
+            flat.primitive_count * sizeof *flat.primitives + flat.node_count * sizeof *flat.nodes;
         printf("%s, %zu primitives, %s: %.1f ms, %.1f bytes each\n", name, flat.primitive_count,
                order == TURNER_ORDER_SAH ? "SAH" : "median", seconds * 1e3,
                (double)bytes / (double)flat.primitive_count);
+        assert_true(bytes <= most_bytes * flat.primitive_count);
+        if (order == TURNER_ORDER_SAH)
+            check_trees(&flat, scene);
         turner_flat_destroy(&flat);
     }
+    turner_scene_destroy(scene);
 }
 
 static void test_size_and_time(void **state)
@@ -373,16 +386,8 @@ static void test_size_and_time(void **state)
     struct turner_scene *flake = make_scene(), *ball = make_scene();
     add_flake(&flake->groups[0], turner_vec3_of(0, 0, 0), 1, turner_vec3_of(0, 0, 1), 5);
     add_ball(&ball->groups[0], 224, 0);
-    print_time("sphereflake", flake);
-    print_time("ball", ball);
-    struct turner_flat flat;
-    assert_int_equal(turner_flat_create(&flat, ball, TURNER_ORDER_SAH), TURNER_OK);
-    size_t bytes =
-        flat.primitive_count * sizeof *flat.primitives + flat.node_count * sizeof *flat.nodes;
-    assert_true(bytes <= 120 * flat.primitive_count);
-    turner_flat_destroy(&flat);
-    check_scene(flake);
-    check_scene(ball);
+    check_and_print("sphereflake", flake, 120);
+    check_and_print("ball", ball, 100);
 }
 
 int main(void)

@@ -61,8 +61,7 @@ static double hit_sphere(const struct turner_gpu_primitive *sphere, const struct
     return t[0] > after ? t[0] : t[1] > after ? t[1] : NEVER;
 }
 
-static double hit_cone(const struct turner_gpu_primitive *cone, const struct ray *ray,
-                       double after)
+static double hit_cone(const struct turner_gpu_primitive *cone, const struct ray *ray, double after)
 {
     struct turner_vec3 base = get(cone->a), along = turner_vec3_sub(get(cone->b), base);
     double length = turner_vec3_length(along);
@@ -124,8 +123,8 @@ static void try_primitive(struct hit *best, const struct turner_gpu_primitive *p
     /* from the point of the ray next to the primitive: far away, roots lose their digits */
     double near = turner_vec3_dot(turner_vec3_sub(get(primitive->a), ray->origin), ray->direction) /
                   turner_vec3_dot(ray->direction, ray->direction);
-    struct ray close = {
-        turner_vec3_add(ray->origin, turner_vec3_scale(ray->direction, near)), ray->direction};
+    struct ray close = {turner_vec3_add(ray->origin, turner_vec3_scale(ray->direction, near)),
+                        ray->direction};
     uint32_t kind = primitive->id >> TURNER_KIND_SHIFT;
     struct hit hit = {.instance = instance, .id = primitive->id};
     hit.t = near + (kind == TURNER_KIND_SPHERE ? hit_sphere(primitive, &close, -near)
@@ -143,8 +142,7 @@ static struct ray into_group(const struct turner_gpu_instance *instance, const s
 }
 
 /* `ends`: for each group, where its primitives begin, and one entry more. */
-static struct hit try_all(const struct turner_flat *flat, const size_t *ends,
-                          const struct ray *ray)
+static struct hit try_all(const struct turner_flat *flat, const size_t *ends, const struct ray *ray)
 {
     struct hit best = {.t = NEVER};
     for (uint32_t i = 0; i < flat->instance_count; i++) {
@@ -234,8 +232,7 @@ static struct turner_vec3 aim(const struct turner_flat *flat, const size_t *ends
     if (count == 0)
         return random_point(random, -1, 1);
     float lo[3], hi[3];
-    turner_primitive_bounds(lo, hi,
-                            &flat->primitives[ends[group] + random_bits(random) % count]);
+    turner_primitive_bounds(lo, hi, &flat->primitives[ends[group] + random_bits(random) % count]);
     struct turner_vec3 point = turner_vec3_of(random_in(random, (double)lo[0], (double)hi[0]),
                                               random_in(random, (double)lo[1], (double)hi[1]),
                                               random_in(random, (double)lo[2], (double)hi[2]));
@@ -298,7 +295,7 @@ static void test_world(void **state)
     uint64_t random = 21;
     struct turner_scene *scene = make_scene();
     fill_group(&scene->groups[0], &random, 400, 300, 500);
-    compare(scene, 2000, 60);
+    compare(scene, 500, 60);
 }
 
 static void test_ties(void **state)
@@ -331,7 +328,7 @@ static void test_instances(void **state)
                 add_instance(scene, k % 2 ? first : second, TURNER_NONE,
                              make_transform(scales[i], random_point(&random, -far, far)));
             }
-            compare(scene, 300, 10);
+            compare(scene, 120, 10);
         }
     }
 }
@@ -354,7 +351,7 @@ static void test_sheared_and_mirrored(void **state)
         mirror.m[0][3] = k;
         add_instance(scene, group, TURNER_NONE, mirror);
     }
-    compare(scene, 1000, 40);
+    compare(scene, 300, 40);
 }
 
 int main(void)
