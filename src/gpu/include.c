@@ -264,11 +264,13 @@ static enum turner_result expand(struct expansion *e, size_t index, bool conditi
             if (scan.continued || scan.block_comment)
                 return turner_fail(TURNER_BAD_INPUT, "%s:%d: #include must end on its own line",
                                    path, line);
+            TURNER_TRY(append(e, text, (size_t)hash)); /* a comment may end here */
             TURNER_TRY(expand_include(e, index, line, rest, conditional || nested > 0, depth));
             continue;
         }
         if (directive && directive_is(directive, "pragma", &rest) && !strncmp(rest, "once", 4)) {
-            TURNER_TRY(append(e, "\n", 1)); /* always so here; glslang would warn */
+            TURNER_TRY(append(e, text, (size_t)hash)); /* always so here; glslang would warn */
+            TURNER_TRY(append(e, "\n", 1));
             continue;
         }
         if (directive &&

@@ -39,3 +39,8 @@ endfunction()
 turner_fuzz_target(json ${turner_fuzz_folder}/fuzz_json.c LAYERS base image scene)
 target_link_options(fuzz_json PRIVATE
     -Wl,--wrap=turner_mesh_read_file -Wl,--wrap=turner_scene_texture)
+
+# Shader sources that include each other, held in memory.
+turner_fuzz_target(include ${turner_fuzz_folder}/fuzz_include.c LAYERS base gpu)
+target_link_options(fuzz_include PRIVATE
+    -Wl,--wrap=turner_embedded_files -Wl,--wrap=turner_embedded_file_count)

@@ -47,7 +47,7 @@ static void lines_are_kept(void **state)
     expect("a.comp", "#version 460\n"
                      "#ifndef TURNER_FILE_1\n#define TURNER_FILE_1\n#line 1 1\n"
                      "\n"
-                     "#ifndef TURNER_FILE_2\n#define TURNER_FILE_2\n#line 1 2\n"
+                     "  #ifndef TURNER_FILE_2\n#define TURNER_FILE_2\n#line 1 2\n"
                      "int d;\r\n"
                      "#endif\n#line 3 1\n"
                      "int b;\n"
@@ -114,7 +114,12 @@ static void comments_are_no_directives(void **state)
     write_shader("after.comp", "/* */ /**/#include \"w.glsl\"\n");
     write_shader("w.glsl", "");
     expect("after.comp",
-           "#ifndef TURNER_FILE_1\n#define TURNER_FILE_1\n#line 1 1\n#endif\n#line 2 0\n");
+           "/* */ /**/#ifndef TURNER_FILE_1\n#define TURNER_FILE_1\n#line 1 1\n#endif\n"
+           "#line 2 0\n");
+    write_shader("closing.comp", "/*\n*/ #include \"w.glsl\"\n/*\n*/ #include \"w.glsl\"\n");
+    expect("closing.comp",
+           "/*\n*/ #ifndef TURNER_FILE_1\n#define TURNER_FILE_1\n#line 1 1\n#endif\n"
+           "#line 3 0\n/*\n*/ \n");
 }
 
 static void folders_in_order_then_built_in(void **state)
