@@ -86,7 +86,7 @@ static enum turner_result parse(struct options *options, int argc, char **argv, 
         {"flip", no_argument, NULL, FLIP},           {"json", required_argument, NULL, JSON},
         {"preview", required_argument, NULL, PREVIEW}, {"help", no_argument, NULL, 'h'}, {0}};
     const double most = 1e30;
-    *options = (struct options){.threshold = .004, .max_rmse = INFINITY};
+    *options = (struct options){.threshold = .004, .max_rmse = HUGE_VAL};
     *done = false;
     optind = 0; /* start anew, whatever was parsed before */
     opterr = 0;

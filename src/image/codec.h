@@ -27,9 +27,9 @@ enum turner_result turner_codec_write(const char *path, const struct turner_form
                                       const void *samples, int width, int height,
                                       const struct turner_image_encoding *encoding);
 
-/* Creates `image` and reads the first `*channels` ≤ 3 channels into its pixels (integers scaled to
- * [0,1], `*integer` set); the channels beyond are 0. */
+/* Creates `image` and reads the first `*channels` ≤ 3 channels into its pixels; the channels beyond
+ * are 0. Integers are scaled to [0,1]; `*steps` is 255 for 8 bit, 65535 for more, 0 for floats. */
 enum turner_result turner_codec_read(struct turner_image *image, const char *path, int *channels,
-                                     bool *integer);
+                                     int *steps);
 
 #endif

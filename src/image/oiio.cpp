@@ -96,7 +96,7 @@ enum turner_result unreadable(const char *path, const std::string &why)
 }
 
 enum turner_result read_picture(struct turner_image *image, const char *path, int *channels,
-                                bool *integer)
+                                int *steps)
 {
     start();
     struct stat status;
@@ -117,7 +117,7 @@ enum turner_result read_picture(struct turner_image *image, const char *path, in
         return unreadable(path, "it is not a flat picture; turn it into EXR or PNG first");
     /* one channel: grey; two: grey and alpha */
     *channels = spec.nchannels < 3 ? 1 : 3;
-    *integer = !spec.format.is_floating_point();
+    *steps = spec.format.is_floating_point() ? 0 : spec.format.size() == 1 ? 255 : 65535;
     enum turner_result result = turner_image_create(image, spec.width, spec.height);
     if (result != TURNER_OK)
         return turner_fail(result, "cannot read picture %s: %s", path, turner_message());
@@ -149,11 +149,11 @@ extern "C" enum turner_result turner_codec_write(const char *path,
 }
 
 extern "C" enum turner_result turner_codec_read(struct turner_image *image, const char *path,
-                                                int *channels, bool *integer)
+                                                int *channels, int *steps)
 {
     *image = {};
     try {
-        return read_picture(image, path, channels, integer);
+        return read_picture(image, path, channels, steps);
     } catch (const std::exception &error) {
         return unreadable(path, reason(error.what()));
     } catch (...) {

@@ -101,7 +101,7 @@ static void nan_and_infinity_always_differ(void **state)
     turner_image_destroy(&a);
     turner_image_destroy(&b);
     a = grey(1), b = grey(2);
-    assert_int_equal(turner_image_compare(&c, &a, &b, NAN, NAN), TURNER_OK);
+    assert_int_equal(turner_image_compare(&c, &a, &b, (double)NAN, (double)NAN), TURNER_OK);
     assert_int_equal(c.pixels_over, 4);
     turner_image_destroy(&a);
     turner_image_destroy(&b);
@@ -160,7 +160,7 @@ static void srgb_curve(void **state)
     }
     assert_true(fabs(turner_linear_to_srgb(.0031308) - .04045) <= 1e-6);
     assert_true(fabs(turner_linear_to_srgb(.0031308) - turner_linear_to_srgb(.00313081)) <= 1e-6);
-    assert_true(isnan(turner_srgb_to_linear(NAN)) && isnan(turner_linear_to_srgb(NAN)));
+    assert_true(isnan(turner_srgb_to_linear((double)NAN)) && isnan(turner_linear_to_srgb((double)NAN)));
     for (int i = 0; i < 65536; i++) { /* every code of both depths finds its way back */
         double code = turner_linear_to_srgb((double)(float)turner_srgb_to_linear(i / 65535.));
         assert_int_equal(lrint(code * 65535), i);

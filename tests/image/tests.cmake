@@ -19,4 +19,5 @@ if(TARGET turner)
         -DWORK=${PROJECT_BINARY_DIR}/tests/image_test -DCTEST=${CMAKE_CTEST_COMMAND}
         -DPICTURES=$<TARGET_FILE:image_test_pictures>
         -P ${CMAKE_CURRENT_LIST_DIR}/image_test/run.cmake)
+    set_tests_properties(image_test_function PROPERTIES LABELS once)
 endif()
