@@ -52,6 +52,7 @@ void add_counts(turner_gpu_counters counts)
 
 void main()
 {
+    scene = scene_block(dispatch.scene).the;
     uvec2 pixel = gl_WorkGroupID.xy * TURNER_WORKGROUP + morton(gl_LocalInvocationIndex);
     turner_gpu_counters counts;
     for (uint kind = 0u; kind < TURNER_COUNTS; kind++)

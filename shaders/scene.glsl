@@ -31,7 +31,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer sce
 {
     turner_gpu_scene the;
 };
-#define scene scene_block(dispatch.scene).the
+// Read once, by main(): a load through an address is a gather for every lane.
+turner_gpu_scene scene;
 
 #define INFINITY uintBitsToFloat(0x7f800000u)
 const float PI = 3.14159265358979;
