@@ -60,9 +60,9 @@ struct json_range {
     bool open_lo, open_hi; /* the bound itself is outside */
 };
 
-#define JSON_UNBOUNDED {-INFINITY, INFINITY, false, false}
-#define JSON_POSITIVE {0, INFINITY, true, false}
-#define JSON_NOT_NEGATIVE {0, INFINITY, false, false}
+#define JSON_UNBOUNDED {-HUGE_VAL, HUGE_VAL, false, false}
+#define JSON_POSITIVE {0, HUGE_VAL, true, false}
+#define JSON_NOT_NEGATIVE {0, HUGE_VAL, false, false}
 #define JSON_FROM_TO(from, to) {from, to, false, false}
 #define JSON_ABOVE_TO(above, to) {above, to, true, false}
 #define JSON_BETWEEN(above, below) {above, below, true, true}

@@ -178,7 +178,7 @@ static enum turner_result check_version(const struct json_reader *reader,
             continue;
         int version;
         TURNER_TRY(json_read_integer(&version, reader, &m,
-                                     (struct json_range)JSON_FROM_TO(1, INFINITY)));
+                                     (struct json_range)JSON_FROM_TO(1, HUGE_VAL)));
         if (version != 1)
             return json_fail(reader, &m, "version %d is not known; this turner reads version 1",
                              version);

@@ -87,7 +87,7 @@ static enum turner_result read_text(char *text, size_t size, int file, const cha
 /* Looks at the whole group from above its front, the sun over the left shoulder. */
 static void add_default_view(struct turner_scene *scene)
 {
-    struct turner_vec3 lo = {INFINITY, INFINITY, INFINITY}, hi = {-INFINITY, -INFINITY, -INFINITY};
+    struct turner_vec3 lo = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, hi = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     const struct turner_mesh *mesh = &scene->groups[0].meshes[0];
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
         struct turner_vec3 p = mesh->positions[i];
