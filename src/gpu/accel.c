@@ -26,15 +26,14 @@ static enum turner_result build(struct turner_accel *accel, struct turner_gpu *g
     };
     VkAccelerationStructureBuildSizesInfoKHR sizes = {
         .sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
-    gpu->get_acceleration_sizes(gpu->device, VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
-                                &info, &count, &sizes);
+    gpu->get_acceleration_sizes(gpu->device, VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info,
+                                &count, &sizes);
 
     struct turner_buffer scratch = {0};
     enum turner_result result;
-    TURNER_TRY_DONE(turner_buffer_create(
-        &accel->buffer, gpu, sizes.accelerationStructureSize,
-        VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR, TURNER_MEMORY_DEVICE,
-        "acceleration structure"));
+    TURNER_TRY_DONE(turner_buffer_create(&accel->buffer, gpu, sizes.accelerationStructureSize,
+                                         VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR,
+                                         TURNER_MEMORY_DEVICE, "acceleration structure"));
     VkDeviceSize alignment = gpu->info.scratch_alignment;
     TURNER_TRY_DONE(turner_buffer_create(&scratch, gpu, sizes.buildScratchSize + alignment, 0,
                                          TURNER_MEMORY_DEVICE,
@@ -81,15 +80,16 @@ enum turner_result turner_accel_build_triangles(struct turner_accel *accel, stru
     VkAccelerationStructureGeometryKHR geometry = {
         .sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR,
         .geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR,
-        .geometry.triangles = {
-            .sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR,
-            .vertexFormat = VK_FORMAT_R32G32B32_SFLOAT,
-            .vertexData.deviceAddress = vertices,
-            .vertexStride = stride,
-            .maxVertex = vertex_count ? vertex_count - 1 : 0,
-            .indexType = indices ? VK_INDEX_TYPE_UINT32 : VK_INDEX_TYPE_NONE_KHR,
-            .indexData.deviceAddress = indices,
-        },
+        .geometry.triangles =
+            {
+                .sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR,
+                .vertexFormat = VK_FORMAT_R32G32B32_SFLOAT,
+                .vertexData.deviceAddress = vertices,
+                .vertexStride = stride,
+                .maxVertex = vertex_count ? vertex_count - 1 : 0,
+                .indexType = indices ? VK_INDEX_TYPE_UINT32 : VK_INDEX_TYPE_NONE_KHR,
+                .indexData.deviceAddress = indices,
+            },
         .flags = flags,
     };
     return build(accel, gpu, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, &geometry,
@@ -107,11 +107,12 @@ enum turner_result turner_accel_build_boxes(struct turner_accel *accel, struct t
     VkAccelerationStructureGeometryKHR geometry = {
         .sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR,
         .geometryType = VK_GEOMETRY_TYPE_AABBS_KHR,
-        .geometry.aabbs = {
-            .sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_AABBS_DATA_KHR,
-            .data.deviceAddress = boxes,
-            .stride = sizeof(VkAabbPositionsKHR),
-        },
+        .geometry.aabbs =
+            {
+                .sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_AABBS_DATA_KHR,
+                .data.deviceAddress = boxes,
+                .stride = sizeof(VkAabbPositionsKHR),
+            },
         .flags = flags,
     };
     return build(accel, gpu, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, &geometry, count);
@@ -133,10 +134,11 @@ enum turner_result turner_accel_build_instances(struct turner_accel *accel, stru
     VkAccelerationStructureGeometryKHR geometry = {
         .sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR,
         .geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR,
-        .geometry.instances = {
-            .sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR,
-            .data.deviceAddress = buffer.address,
-        },
+        .geometry.instances =
+            {
+                .sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR,
+                .data.deviceAddress = buffer.address,
+            },
     };
     if (result == TURNER_OK)
         result = build(accel, gpu, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, &geometry, count);

@@ -75,7 +75,7 @@ static void report_line(struct report *report, const struct turner_shader_source
     while (text_length > 0 && isspace((unsigned char)text[text_length - 1]))
         text_length--;
     if (text_length <= 0 || (line == 0 && isdigit((unsigned char)*text)))
-        return; /* "2 compilation errors.  No code generated." */
+        return;                          /* "2 compilation errors.  No code generated." */
     if (strncmp(text, "'' :", 4) == 0) { /* no token to blame */
         int skipped = 4 + (int)strspn(text + 4, " ");
         text += skipped;
@@ -225,8 +225,9 @@ enum turner_result turner_spirv_validate(const struct turner_spirv *spirv)
     spv_diagnostic diagnostic = NULL;
     enum turner_result result = TURNER_OK;
     if (spvValidateWithOptions(context, options, &binary, &diagnostic) != SPV_SUCCESS)
-        result = turner_fail(TURNER_BAD_INPUT, "the SPIR-V is not valid: %s",
-                             diagnostic && diagnostic->error ? diagnostic->error : "no reason given");
+        result =
+            turner_fail(TURNER_BAD_INPUT, "the SPIR-V is not valid: %s",
+                        diagnostic && diagnostic->error ? diagnostic->error : "no reason given");
     spvDiagnosticDestroy(diagnostic);
     spvValidatorOptionsDestroy(options);
     spvContextDestroy(context);

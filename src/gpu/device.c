@@ -19,10 +19,10 @@ static enum turner_result create_instance(VkInstance *instance, bool validation)
 {
     *instance = VK_NULL_HANDLE;
     if (validation && !turner_validation_available())
-        return turner_fail(TURNER_DEVICE, "validation was asked for, but there is no "
-                                          TURNER_VALIDATION_LAYER
-                                          "; install vulkan-validationlayers or unset "
-                                          "TURNER_VALIDATION");
+        return turner_fail(TURNER_DEVICE,
+                           "validation was asked for, but there is no " TURNER_VALIDATION_LAYER
+                           "; install vulkan-validationlayers or unset "
+                           "TURNER_VALIDATION");
     static const char *const layers[] = {TURNER_VALIDATION_LAYER};
     static const char *const extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
     VkDebugUtilsMessengerCreateInfoEXT messenger = turner_validation_messenger();

@@ -21,15 +21,15 @@ struct turner_gpu_info {
     bool float64, int64, buffer_device_address, scalar_block_layout;
     uint32_t subgroup_size;
     uint32_t max_workgroup_size[3], max_workgroup_invocations, max_workgroup_count[3];
-    uint32_t max_push_constants;   /* bytes */
-    uint64_t max_storage_range;    /* bytes one descriptor reaches; addresses have no such limit */
-    uint64_t max_allocation;       /* bytes of one allocation */
-    uint64_t max_buffer;           /* bytes of one buffer */
-    uint64_t device_memory;        /* bytes of the largest device-local heap */
-    double timestamp_period;       /* nanoseconds per tick; 0 when the queue has no timestamps */
-    uint64_t max_primitives;       /* of one bottom-level acceleration structure; 0 without */
-    uint64_t max_instances;        /* of a top-level one */
-    uint32_t scratch_alignment;    /* bytes */
+    uint32_t max_push_constants; /* bytes */
+    uint64_t max_storage_range;  /* bytes one descriptor reaches; addresses have no such limit */
+    uint64_t max_allocation;     /* bytes of one allocation */
+    uint64_t max_buffer;         /* bytes of one buffer */
+    uint64_t device_memory;      /* bytes of the largest device-local heap */
+    double timestamp_period;     /* nanoseconds per tick; 0 when the queue has no timestamps */
+    uint64_t max_primitives;     /* of one bottom-level acceleration structure; 0 without */
+    uint64_t max_instances;      /* of a top-level one */
+    uint32_t scratch_alignment;  /* bytes */
 };
 
 struct turner_gpu {
@@ -91,21 +91,21 @@ const char *turner_vk_result_name(VkResult result);
 /* turner_fail for a Vulkan call that failed: "vkCreateX: VK_ERROR_… (file.c:12)", what to do. */
 enum turner_result turner_vk_fail(VkResult result, const char *call, const char *file, int line);
 
-#define VK_TRY(call)                                                                               \
-    do {                                                                                           \
-        VkResult vk_try_result = (call);                                                           \
-        if (vk_try_result != VK_SUCCESS)                                                           \
-            return turner_vk_fail(vk_try_result, #call, __FILE__, __LINE__);                       \
+#define VK_TRY(call)                                                         \
+    do {                                                                     \
+        VkResult vk_try_result = (call);                                     \
+        if (vk_try_result != VK_SUCCESS)                                     \
+            return turner_vk_fail(vk_try_result, #call, __FILE__, __LINE__); \
     } while (0)
 
 /* The same for functions with one cleanup tail: sets `result` and goes to `done`. */
-#define VK_TRY_DONE(call)                                                                          \
-    do {                                                                                           \
-        VkResult vk_try_result = (call);                                                           \
-        if (vk_try_result != VK_SUCCESS) {                                                         \
-            result = turner_vk_fail(vk_try_result, #call, __FILE__, __LINE__);                     \
-            goto done;                                                                             \
-        }                                                                                          \
+#define VK_TRY_DONE(call)                                                      \
+    do {                                                                       \
+        VkResult vk_try_result = (call);                                       \
+        if (vk_try_result != VK_SUCCESS) {                                     \
+            result = turner_vk_fail(vk_try_result, #call, __FILE__, __LINE__); \
+            goto done;                                                         \
+        }                                                                      \
     } while (0)
 
 #endif

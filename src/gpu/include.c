@@ -117,8 +117,7 @@ static enum turner_result read_file(char **text, const char *path)
     return TURNER_OK;
 }
 
-static size_t add_file(struct expansion *e, const char *name, char *path, char *text,
-                       bool embedded)
+static size_t add_file(struct expansion *e, const char *name, char *path, char *text, bool embedded)
 {
     struct turner_shader_source *source = e->source;
     e->states = turner_grow(e->states, source->file_count, &e->state_capacity, sizeof *e->states);
@@ -241,8 +240,8 @@ static enum turner_result expand_include(struct expansion *e, size_t includer, i
     if (depth + 1 >= TURNER_INCLUDE_DEPTH)
         return turner_fail(TURNER_BAD_INPUT, "%s:%d: more than %d files inside each other", where,
                            line, TURNER_INCLUDE_DEPTH);
-    TURNER_TRY(append_format(e, "#ifndef TURNER_FILE_%zu\n#define TURNER_FILE_%zu\n", included,
-                             included));
+    TURNER_TRY(
+        append_format(e, "#ifndef TURNER_FILE_%zu\n#define TURNER_FILE_%zu\n", included, included));
     TURNER_TRY(append_format(e, "#line 1 %zu\n", included));
     TURNER_TRY(expand(e, included, conditional, depth + 1));
     return append_format(e, "#endif\n#line %d %zu\n", line + 1, includer);

@@ -12,8 +12,8 @@
 
 #include "base/result.h"
 
-#define TURNER_INCLUDE_DEPTH 32             /* files inside files */
-#define TURNER_SOURCE_BYTES (4u << 20)      /* of the whole expanded text */
+#define TURNER_INCLUDE_DEPTH 32        /* files inside files */
+#define TURNER_SOURCE_BYTES (4u << 20) /* of the whole expanded text */
 
 /* A copy of a file of shaders/ in the program; `name` is relative to shaders/. */
 struct turner_embedded_file {

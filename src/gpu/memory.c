@@ -96,7 +96,7 @@ static enum turner_result allocate(struct turner_buffer *buffer, struct turner_g
     };
     VkResult allocated = vkAllocateMemory(gpu->device, &info, NULL, &buffer->memory);
     if (allocated == VK_ERROR_OUT_OF_DEVICE_MEMORY || allocated == VK_ERROR_OUT_OF_HOST_MEMORY)
-        return refuse(gpu, what, needs.size, "the driver found fewer than its", available);
+        return refuse(gpu, what, needs.size, "the driver gave none of its", available);
     VK_TRY(allocated);
     buffer->allocated = needs.size;
     gpu->memory_used += needs.size;

@@ -36,7 +36,8 @@ enum turner_result turner_buffer_download(struct turner_gpu *gpu,
                                           void *data, VkDeviceSize size);
 
 /* Bytes that may still be allocated from the heap such buffers come from: what the driver's budget
- * or the heap's size leaves, and on a device that shares the host's memory no more than that has. */
+ * or the heap's size leaves, and on a device that shares the host's memory no more than that has.
+ */
 uint64_t turner_gpu_memory_available(const struct turner_gpu *gpu, enum turner_memory memory);
 
 #endif

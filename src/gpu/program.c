@@ -202,7 +202,8 @@ enum turner_result turner_program_bind_acceleration(struct turner_program *progr
                                                     VkAccelerationStructureKHR acceleration)
 {
     bool found;
-    TURNER_TRY(find_binding(&found, program, binding, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR));
+    TURNER_TRY(
+        find_binding(&found, program, binding, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR));
     if (!found)
         return TURNER_OK;
     VkWriteDescriptorSetAccelerationStructureKHR info = {

@@ -22,10 +22,10 @@ struct turner_binding {
 struct turner_reflection {
     struct turner_binding bindings[TURNER_MAX_BINDINGS]; /* of set 0 */
     uint32_t binding_count;
-    uint32_t push_size;      /* bytes of the push constant block; 0 without */
-    uint32_t local_size[3];  /* defaults, where a constant gives it */
+    uint32_t push_size;        /* bytes of the push constant block; 0 without */
+    uint32_t local_size[3];    /* defaults, where a constant gives it */
     uint32_t local_size_id[3]; /* that constant's id; UINT32_MAX when fixed */
-    uint32_t *constant_ids;  /* specialisation constants the shader has; may repeat */
+    uint32_t *constant_ids;    /* specialisation constants the shader has; may repeat */
     size_t constant_count;
 };
 
@@ -57,9 +57,9 @@ enum turner_result turner_program_create(struct turner_program *program, struct 
                                          VkPipelineCache cache);
 void turner_program_destroy(struct turner_gpu *gpu, struct turner_program *program);
 
-/* Binds one resource, not while a dispatch runs. A binding that the shader does not have is ignored.
- * TURNER_BAD_INPUT when it declares something else there, TURNER_DEVICE when `buffer` is larger than
- * a descriptor reaches. */
+/* Binds one resource, not while a dispatch runs. A binding that the shader does not have is
+ * ignored. TURNER_BAD_INPUT when it declares something else there, TURNER_DEVICE when `buffer` is
+ * larger than a descriptor reaches. */
 enum turner_result turner_program_bind_buffer(struct turner_program *program,
                                               struct turner_gpu *gpu, uint32_t binding,
                                               const struct turner_buffer *buffer);

@@ -12,10 +12,10 @@ static enum turner_result fail_reflection(spvc_context context)
                        spvc_context_get_last_error_string(context));
 }
 
-#define SPVC_TRY(call)                                                                             \
-    do {                                                                                           \
-        if ((call) != SPVC_SUCCESS)                                                                \
-            return fail_reflection(context);                                                       \
+#define SPVC_TRY(call)                       \
+    do {                                     \
+        if ((call) != SPVC_SUCCESS)          \
+            return fail_reflection(context); \
     } while (0)
 
 /* On success and on failure the caller destroys *context, which owns all the rest. */
@@ -54,8 +54,7 @@ static enum turner_result add_bindings(struct turner_reflection *reflection, spv
         if (reflection->binding_count == TURNER_MAX_BINDINGS)
             return turner_fail(TURNER_BAD_INPUT, "%s: more than %d bindings", name,
                                TURNER_MAX_BINDINGS);
-        uint32_t binding =
-            spvc_compiler_get_decoration(compiler, list[i].id, SpvDecorationBinding);
+        uint32_t binding = spvc_compiler_get_decoration(compiler, list[i].id, SpvDecorationBinding);
         for (uint32_t j = 0; j < reflection->binding_count; j++) {
             if (reflection->bindings[j].binding == binding)
                 return turner_fail(TURNER_BAD_INPUT, "%s: binding %u is declared twice", name,
@@ -70,8 +69,8 @@ static enum turner_result reflect_resources(struct turner_reflection *reflection
                                             spvc_context context, spvc_compiler compiler)
 {
     static const spvc_resource_type refused[] = {
-        SPVC_RESOURCE_TYPE_UNIFORM_BUFFER, SPVC_RESOURCE_TYPE_STORAGE_IMAGE,
-        SPVC_RESOURCE_TYPE_SAMPLED_IMAGE,  SPVC_RESOURCE_TYPE_SEPARATE_IMAGE,
+        SPVC_RESOURCE_TYPE_UNIFORM_BUFFER,    SPVC_RESOURCE_TYPE_STORAGE_IMAGE,
+        SPVC_RESOURCE_TYPE_SAMPLED_IMAGE,     SPVC_RESOURCE_TYPE_SEPARATE_IMAGE,
         SPVC_RESOURCE_TYPE_SEPARATE_SAMPLERS,
     };
     spvc_resources resources;
@@ -90,8 +89,8 @@ static enum turner_result reflect_resources(struct turner_reflection *reflection
     TURNER_TRY(add_bindings(reflection, context, compiler, resources,
                             SPVC_RESOURCE_TYPE_ACCELERATION_STRUCTURE,
                             VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR));
-    SPVC_TRY(spvc_resources_get_resource_list_for_type(
-        resources, SPVC_RESOURCE_TYPE_PUSH_CONSTANT, &list, &count));
+    SPVC_TRY(spvc_resources_get_resource_list_for_type(resources, SPVC_RESOURCE_TYPE_PUSH_CONSTANT,
+                                                       &list, &count));
     if (count) {
         size_t size;
         SPVC_TRY(spvc_compiler_get_declared_struct_size(

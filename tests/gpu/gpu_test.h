@@ -16,16 +16,16 @@
 
 #define SKIPPED 77
 
-#define assert_ok(call)                                                                            \
-    do {                                                                                           \
-        if ((call) != TURNER_OK)                                                                   \
-            fail_msg("%s: %s", #call, turner_message());                                           \
+#define assert_ok(call)                                  \
+    do {                                                 \
+        if ((call) != TURNER_OK)                         \
+            fail_msg("%s: %s", #call, turner_message()); \
     } while (0)
 
-#define assert_message_has(part)                                                                   \
-    do {                                                                                           \
-        if (!strstr(turner_message(), (part)))                                                     \
-            fail_msg("\"%s\" is not in the message: %s", (part), turner_message());                \
+#define assert_message_has(part)                                                    \
+    do {                                                                            \
+        if (!strstr(turner_message(), (part)))                                      \
+            fail_msg("\"%s\" is not in the message: %s", (part), turner_message()); \
     } while (0)
 
 /* Whether this machine has a device that turner can use, else says that and why. A driver that is

@@ -41,7 +41,8 @@ static const char shader[] =
     "        }\n"
     "        float t = sphere(rayQueryGetIntersectionObjectRayOriginEXT(query, false),\n"
     "                         rayQueryGetIntersectionObjectRayDirectionEXT(query, false),\n"
-    "                         vec3(2 * rayQueryGetIntersectionPrimitiveIndexEXT(query, false), 0, 0));\n"
+    "                         vec3(2 * rayQueryGetIntersectionPrimitiveIndexEXT(query, false), 0, "
+    "0));\n"
     "        bool nearer = rayQueryGetIntersectionTypeEXT(query, true) ==\n"
     "                      gl_RayQueryCommittedIntersectionNoneEXT ||\n"
     "                      t < rayQueryGetIntersectionTEXT(query, true);\n"
@@ -49,7 +50,8 @@ static const char shader[] =
     "            rayQueryGenerateIntersectionEXT(query, t);\n"
     "    }\n"
     "    hits[i] = hit(-1, -1, -1);\n"
-    "    if (rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT)\n"
+    "    if (rayQueryGetIntersectionTypeEXT(query, true) != "
+    "gl_RayQueryCommittedIntersectionNoneEXT)\n"
     "        hits[i] = hit(rayQueryGetIntersectionTEXT(query, true),\n"
     "                      rayQueryGetIntersectionInstanceCustomIndexEXT(query, true),\n"
     "                      rayQueryGetIntersectionPrimitiveIndexEXT(query, true));\n"
@@ -81,8 +83,10 @@ static void trace(const struct turner_accel *top, const struct ray *rays, struct
     struct turner_program program;
     struct turner_buffer in, out;
     build_program(&program);
-    assert_ok(turner_buffer_create(&in, &gpu, count * sizeof *rays, 0, TURNER_MEMORY_DEVICE, "rays"));
-    assert_ok(turner_buffer_create(&out, &gpu, count * sizeof *hits, 0, TURNER_MEMORY_HOST, "hits"));
+    assert_ok(
+        turner_buffer_create(&in, &gpu, count * sizeof *rays, 0, TURNER_MEMORY_DEVICE, "rays"));
+    assert_ok(
+        turner_buffer_create(&out, &gpu, count * sizeof *hits, 0, TURNER_MEMORY_HOST, "hits"));
     assert_ok(turner_buffer_upload(&gpu, &in, 0, rays, count * sizeof *rays));
     assert_ok(turner_program_bind_acceleration(&program, &gpu, 0, top->handle));
     assert_ok(turner_program_bind_buffer(&program, &gpu, 1, &in));
@@ -139,9 +143,9 @@ static void nearest_hits(void **state)
     turner_buffer_destroy(&gpu, &vertex_buffer);
     turner_buffer_destroy(&gpu, &index_buffer);
     turner_buffer_destroy(&gpu, &box_buffer);
-    const VkAccelerationStructureInstanceKHR instances[3] = {
-        instance(&triangles, 100, -20, 1), instance(&triangles, 200, -10, 2),
-        instance(&spheres, 300, 0, 1)};
+    const VkAccelerationStructureInstanceKHR instances[3] = {instance(&triangles, 100, -20, 1),
+                                                             instance(&triangles, 200, -10, 2),
+                                                             instance(&spheres, 300, 0, 1)};
     assert_ok(turner_accel_build_instances(&top, &gpu, instances, 3));
 
     enum { WIDTH = 300, HEIGHT = 31, COUNT = WIDTH * HEIGHT };
@@ -244,7 +248,7 @@ static void a_large_mesh(void **state)
 {
     (void)state;
     enum { COUNT = 20000 };
-    float (*corners)[3] = calloc(3 * COUNT, sizeof *corners);
+    float(*corners)[3] = calloc(3 * COUNT, sizeof *corners);
     struct ray *rays = calloc(COUNT, sizeof *rays);
     struct hit *hits = calloc(COUNT, sizeof *hits);
     for (int i = 0; i < COUNT; i++) {
@@ -256,7 +260,8 @@ static void a_large_mesh(void **state)
     struct turner_buffer buffer;
     input(&buffer, corners, 3 * COUNT * sizeof *corners);
     struct turner_accel mesh, top;
-    assert_ok(turner_accel_build_triangles(&mesh, &gpu, buffer.address, 12, 3 * COUNT, 0, COUNT, 0));
+    assert_ok(
+        turner_accel_build_triangles(&mesh, &gpu, buffer.address, 12, 3 * COUNT, 0, COUNT, 0));
     turner_buffer_destroy(&gpu, &buffer);
     VkAccelerationStructureInstanceKHR one = instance(&mesh, 1, 0, 1);
     assert_ok(turner_accel_build_instances(&top, &gpu, &one, 1));

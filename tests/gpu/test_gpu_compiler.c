@@ -107,12 +107,12 @@ static void errors_say_where(void **state)
                                "@/outer.comp:5: 'unknown' : undeclared identifier");
 
     write_shader("inner.glsl", "float f() { return 1; }\n");
-    expect_error("outer.comp", "@/outer.comp:5: 'unknown' : undeclared identifier\n    unknown = 1;");
+    expect_error("outer.comp",
+                 "@/outer.comp:5: 'unknown' : undeclared identifier\n    unknown = 1;");
 
     /* a name with what a tool might trip over */
     write_shader("odd: \xc3\xa9 #'1.glsl", "int a = b;\n");
-    write_shader("odd.comp",
-                 "#version 460\n#include \"odd: \xc3\xa9 #'1.glsl\"\nvoid main() {}\n");
+    write_shader("odd.comp", "#version 460\n#include \"odd: \xc3\xa9 #'1.glsl\"\nvoid main() {}\n");
     expect_error("odd.comp",
                  "@/odd: \xc3\xa9 #'1.glsl:1: 'b' : undeclared identifier\n    int a = b;");
 

@@ -66,10 +66,10 @@ static const char *run(int *status, const char *variable, const char *value, con
     return output;
 }
 
-#define assert_output(output, part)                                                                \
-    do {                                                                                           \
-        if (!strstr(output, part))                                                                 \
-            fail_msg("\"%s\" is not in: %s", part, output);                                        \
+#define assert_output(output, part)                         \
+    do {                                                    \
+        if (!strstr(output, part))                          \
+            fail_msg("\"%s\" is not in: %s", part, output); \
     } while (0)
 
 static void no_driver(void **state)
@@ -132,7 +132,7 @@ static void lists_and_chooses(void **state)
         assert_output(output, info->name);
         for (int c = 0; c < 8 && info->name[c]; c++)
             name[c] = info->name[c] >= 'a' && info->name[c] <= 'z' ? info->name[c] - 'a' + 'A'
-                                                                     : info->name[c];
+                                                                   : info->name[c];
         run(&status, NULL, NULL, "open", name);
         assert_int_equal(status, TURNER_OK);
     }

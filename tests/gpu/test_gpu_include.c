@@ -71,9 +71,11 @@ static void lines_are_kept(void **state)
 static void a_file_comes_once(void **state)
 {
     (void)state;
-    write_shader("twice.comp", "#include \"x.glsl\"\n#include \"x.glsl\"\n#include \"y.glsl\"\nend\n");
+    write_shader("twice.comp",
+                 "#include \"x.glsl\"\n#include \"x.glsl\"\n#include \"y.glsl\"\nend\n");
     write_shader("x.glsl", "x\n#include \"y.glsl\"\n");
-    write_shader("y.glsl", "#include \"x.glsl\"\n#include \"y.glsl\"\n#include \"twice.comp\"\ny\n");
+    write_shader("y.glsl",
+                 "#include \"x.glsl\"\n#include \"y.glsl\"\n#include \"twice.comp\"\ny\n");
     expect("twice.comp", "#ifndef TURNER_FILE_1\n#define TURNER_FILE_1\n#line 1 1\nx\n"
                          "#ifndef TURNER_FILE_2\n#define TURNER_FILE_2\n#line 1 2\n\n\n\ny\n"
                          "#endif\n#line 3 1\n#endif\n#line 2 0\n\n\nend\n");
@@ -168,7 +170,8 @@ static void copies_are_exact(void **state)
         free(text);
         fclose(file);
         if (i)
-            assert_true(strcmp(turner_embedded_files[i - 1].name, turner_embedded_files[i].name) < 0);
+            assert_true(strcmp(turner_embedded_files[i - 1].name, turner_embedded_files[i].name) <
+                        0);
     }
 }
 

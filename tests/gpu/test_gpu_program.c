@@ -14,8 +14,7 @@ static enum turner_result build(struct turner_program *program, const char *text
     struct turner_shader_source source;
     struct turner_spirv spirv = {0};
     *program = (struct turner_program){0};
-    enum turner_result result =
-        turner_shader_source_from_text(&source, "test.comp", text, NULL, 0);
+    enum turner_result result = turner_shader_source_from_text(&source, "test.comp", text, NULL, 0);
     if (result == TURNER_OK)
         result = turner_compile(&spirv, &source, NULL, 0);
     if (result == TURNER_OK)
@@ -72,8 +71,8 @@ static void constants_and_addresses(void **state)
         assert_null(program.set_layout);
         assert_null(program.set);
         struct turner_buffer buffer;
-        assert_ok(turner_buffer_create(&buffer, &gpu, 100 * sizeof(float), 0,
-                                       TURNER_MEMORY_DEVICE, "numbers"));
+        assert_ok(turner_buffer_create(&buffer, &gpu, 100 * sizeof(float), 0, TURNER_MEMORY_DEVICE,
+                                       "numbers"));
         float numbers[100];
         memset(numbers, 0, sizeof numbers);
         assert_ok(turner_buffer_upload(&gpu, &buffer, 0, numbers, sizeof numbers));
@@ -238,8 +237,10 @@ static void soak(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(constants_and_addresses), cmocka_unit_test(bindings),
-        cmocka_unit_test(barriers_order_dispatches), cmocka_unit_test(too_much_is_refused),
+        cmocka_unit_test(constants_and_addresses),
+        cmocka_unit_test(bindings),
+        cmocka_unit_test(barriers_order_dispatches),
+        cmocka_unit_test(too_much_is_refused),
         cmocka_unit_test(soak),
     };
     open_device(&gpu);
