@@ -211,9 +211,12 @@ static enum turner_result complete_metal(struct material_json *m, const struct j
         is_black(m->material.k_t) && !is_black(m->material.k_r))
         return json_fail(reader, fresnel, "\"exact\" needs to know the mirror's index: add "
                          "\"metal\", or \"eta\" and \"k\", or use \"schlick\"");
-    if (m->material.conductor && is_black(m->material.k_r))
+    if (m->material.conductor && is_black(m->material.k_r)) {
+        char quoted[JSON_QUOTE];
+        json_quote(quoted, object->self.item->string);
         turner_warn("%s: the metal \"%s\" reflects nothing; add \"k_r\": 1", reader->path,
-                    object->self.item->string);
+                    quoted);
+    }
     return TURNER_OK;
 }
 

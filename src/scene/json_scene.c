@@ -200,9 +200,11 @@ static enum turner_result check_depth(const struct json_reader *reader,
         struct json_value m = json_first(json_member(root, "settings"));
         while (strcmp(m.item->string, "depth") != 0)
             m = json_next(m);
+        char quoted[JSON_QUOTE];
+        json_quote(quoted, scene->materials[i].name);
         return json_fail(reader, &m, "depth %d is too much where a material both reflects and "
                          "transmits, as \"%s\" does; %d is the limit then",
-                         scene->settings.depth, scene->materials[i].name, TURNER_MAX_BRANCH_DEPTH);
+                         scene->settings.depth, quoted, TURNER_MAX_BRANCH_DEPTH);
     }
     return TURNER_OK;
 }

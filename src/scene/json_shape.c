@@ -200,11 +200,13 @@ struct transform_json {
     double angle;
 };
 
+#define TRANSFORM(member) offsetof(struct transform_json, member)
+
 static const struct json_key transform_keys[] = {
-    JSON_KEY("translate", JSON_POINT, false, offsetof(struct transform_json, translate)),
+    JSON_KEY("translate", JSON_POINT, false, TRANSFORM(translate)),
     JSON_KEY_ANY("scale", false),
-    JSON_KEY_IN("rotate", JSON_DEGREES, false, offsetof(struct transform_json, angle), JSON_UNBOUNDED),
-    JSON_KEY("axis", JSON_DIRECTION, false, offsetof(struct transform_json, axis)),
+    JSON_KEY_IN("rotate", JSON_DEGREES, false, TRANSFORM(angle), JSON_UNBOUNDED),
+    JSON_KEY("axis", JSON_DIRECTION, false, TRANSFORM(axis)),
     JSON_KEY_ANY("matrix", false),
 };
 const struct json_table json_table_transform = JSON_TABLE("a transform", transform_keys);

@@ -25,10 +25,9 @@ void json_quote(char out[static JSON_QUOTE], const char *text)
 
 static bool is_plain(const char *key)
 {
-    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_$";
-    return *key && strspn(key, letters) > 0 &&
-           strspn(key, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_$0123456789") ==
-               strlen(key);
+    static const char letters[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_$0123456789";
+    return *key && (*key < '0' || *key > '9') && key[strspn(key, letters)] == '\0';
 }
 
 /* Appends the way to the value; a key that is not a plain word stands in brackets. */

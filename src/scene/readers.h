@@ -45,7 +45,8 @@ void turner_group_add_mesh(struct turner_group *group, struct turner_mesh *mesh)
 /* The index of a new, empty group; `name` is copied. */
 uint32_t turner_scene_add_group(struct turner_scene *scene, const char *name);
 
-/* ---- checks that readers make where they can point at the place, and turner_scene_validate ---- */
+/* ---- checks that readers make where they can point at the place; turner_scene_validate makes
+ * them for all ---- */
 
 enum turner_camera_state {
     TURNER_CAMERA_GOOD,

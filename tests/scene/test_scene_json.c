@@ -1,6 +1,7 @@
 /* What JSON scenes become: every key, and every default. docs/scenes.md. */
 #include <locale.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "scene_reading.h"
 
@@ -165,6 +166,26 @@ static void metals(void **state)
                 fail_msg("metal %d channel %d: %g instead of %g", i, c, f, published[i][c]);
         }
     }
+    turner_scene_destroy(scene);
+}
+
+/* "metal" alone is valid and black, which nobody means. */
+static void a_metal_without_k_r_is_warned_of(void **state)
+{
+    (void)state;
+    char line[256] = "";
+    FILE *caught = tmpfile();
+    int old = dup(STDERR_FILENO);
+    dup2(fileno(caught), STDERR_FILENO);
+    struct turner_scene *scene =
+        must_parse(HEAD ", \"materials\": {\"ring\": {\"metal\": \"gold\"}}}");
+    dup2(old, STDERR_FILENO);
+    close(old);
+    rewind(caught);
+    assert_non_null(fgets(line, sizeof line, caught));
+    fclose(caught);
+    assert_string_equal(line, "turner: warning: t.json: the metal \"ring\" reflects nothing; add "
+                              "\"k_r\": 1\n");
     turner_scene_destroy(scene);
 }
 
@@ -339,6 +360,7 @@ int main(void)
         cmocka_unit_test(media),
         cmocka_unit_test(materials),
         cmocka_unit_test(metals),
+        cmocka_unit_test(a_metal_without_k_r_is_warned_of),
         cmocka_unit_test(primitives),
         cmocka_unit_test(meshes),
         cmocka_unit_test(instances),

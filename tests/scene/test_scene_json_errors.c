@@ -370,7 +370,8 @@ static void primitives(void **state)
     (void)state;
 #define SHAPE(text) WITH_M ", \"primitives\": [{" text ", \"material\": \"m\"}]}"
     static const struct error_case cases[] = {
-        {WITH_M ", \"primitives\": @{}}", "expected a list, but here is an object (at $.primitives)"},
+        {WITH_M ", \"primitives\": @{}}",
+         "expected a list, but here is an object (at $.primitives)"},
         {WITH_M ", \"primitives\": [@7]}",
          "expected an object, but here is 7 (at $.primitives[0])"},
         {WITH_M ", \"primitives\": [{\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 1, "

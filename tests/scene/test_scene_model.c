@@ -169,8 +169,8 @@ static void suggestions(void **state)
     static const char *const words[] = {"k_r", "k_t", "radius", "radios", "k"};
     static const struct {
         const char *text, *nearest;
-    } cases[] = {{"k_rr", "k_r"}, {"Radius", "radius"}, {"radiuss", "radius"}, {"radioss", "radios"},
-                 {"raidus", "radius"}, {"x", NULL}, {"kr", "k_r"}, {"colour", NULL}, {"", NULL}};
+    } cases[] = {{"k_rr", "k_r"}, {"Radius", "radius"}, {"radiuss", "radius"},
+                 {"radioss", "radios"}, {"raidus", "radius"}, {"x", NULL}, {"kr", "k_r"}, {"colour", NULL}, {"", NULL}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const char *nearest = turner_nearest(cases[i].text, 5, word_of, words);
         if (nearest ? !cases[i].nearest || strcmp(nearest, cases[i].nearest) != 0
