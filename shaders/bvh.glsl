@@ -68,8 +68,8 @@ void traverse(inout search_t search, ray_t ray)
             int enter = side == 0 ? enter0 : enter1;
             uint first = side == 0 ? child.x : child.y;
             uint items = side == 0 ? count.x : count.y;
-            if (enter < 0)
-                continue;
+            if (enter < 0 || (first | items) == 0u)
+                continue; // missed, or no child there: node 0 is nobody's child
             if (items != 0u && !top) {
                 for (uint i = 0; i < items && !search.blocked; i++)
                     intersect_primitive(search, first + i, instance, override_material, origin,

@@ -89,7 +89,7 @@ TURNER_STRUCT(turner_gpu_corners)
 };
 
 /* Two children a node, 64 bytes. count 0: child is a node; else the first of count primitives
- * (in the top level: of count instances). An empty child has lo > hi. */
+ * (in the top level: of count instances). An empty child has child 0 and count 0. */
 TURNER_STRUCT(turner_gpu_node)
 {
     float lo0[3];
