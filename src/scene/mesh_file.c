@@ -3,6 +3,7 @@
 #include <assimp/cimport.h>
 #include <assimp/scene.h>
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -406,22 +407,78 @@ static enum turner_result read_scene(struct reading *r, const struct aiScene *fi
     return TURNER_OK;
 }
 
+/* assimp 5.2 never comes back from a PLY file that ends inside its header, whatever its name. */
+static enum turner_result check_ply_header(const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return turner_fail(TURNER_BAD_INPUT, "%s: cannot open the mesh: %s", path,
+                           strerror(errno));
+    char line[256];
+    bool ply = fgets(line, sizeof line, file) && strncasecmp(line, "ply", 3) == 0, ended = false;
+    while (ply && !ended && fgets(line, sizeof line, file))
+        ended = strncasecmp(line, "end_header", 10) == 0;
+    fclose(file);
+    if (ply && !ended)
+        return turner_fail(TURNER_BAD_INPUT, "%s: the PLY header has no end (end_header); the file "
+                                             "may be cut off", path);
+    return TURNER_OK;
+}
+
+/* What assimp has to say about the shape while it reads; it is never silent about what it mends. */
+struct complaints {
+    char first[256];
+    size_t count;
+    bool indices; /* faces with indices out of range, which assimp drops from glTF */
+};
+
+/* A line of assimp's log: "Warn,  T0: text\n". */
+static void hear(const char *line, char *user)
+{
+    struct complaints *heard = (struct complaints *)(void *)user;
+    const char *text = strstr(line, ": ");
+    if (!text || (strncmp(line, "Warn", 4) != 0 && strncmp(line, "Error", 5) != 0))
+        return;
+    if (strstr(line, "aterial") || strstr(line, "exture")) /* not read anyway */
+        return;
+    heard->indices |= strstr(line, "out-of-range indices") != NULL;
+    if (heard->count++ == 0)
+        snprintf(heard->first, sizeof heard->first, "%.*s", (int)strcspn(text + 2, "\n"), text + 2);
+}
+
+static const struct aiScene *import(const char *path, struct complaints *heard)
+{
+    struct aiLogStream stream = {hear, (char *)(void *)heard};
+    aiAttachLogStream(&stream);
+    const struct aiScene *file = aiImportFile(path, 0);
+    aiDetachLogStream(&stream);
+    return file;
+}
+
 enum turner_result turner_mesh_read_file(struct turner_mesh *mesh, const char *path, int smooth)
 {
     *mesh = (struct turner_mesh){0};
     TURNER_TRY(check_file(path));
-    const struct aiScene *file = aiImportFile(path, 0);
+    TURNER_TRY(check_ply_header(path));
+    struct complaints heard = {0};
+    const struct aiScene *file = import(path, &heard);
     if (!file)
         return turner_fail(TURNER_BAD_INPUT, "%s: cannot be read as a mesh: %s", path,
                            aiGetErrorString());
     struct reading r = {.path = path, .smooth = smooth,
                         .vertex_normals = strcasecmp(ending_of(path), ".stl") != 0};
-    enum turner_result result = read_scene(&r, file);
+    enum turner_result result =
+        heard.indices ? turner_fail(TURNER_BAD_INPUT, "%s: faces use vertices that the file does "
+                                                      "not have; repair the file", path)
+                      : read_scene(&r, file);
     aiReleaseImport(file);
     turner_polygon_destroy(&r.polygon);
-    if (result == TURNER_OK)
-        *mesh = r.mesh;
-    else
+    if (result != TURNER_OK) {
         turner_mesh_destroy(&r.mesh);
-    return result;
+        return result;
+    }
+    if (heard.count)
+        turner_warn("%s: %s%s", path, heard.first, heard.count > 1 ? " (and more)" : "");
+    *mesh = r.mesh;
+    return TURNER_OK;
 }
