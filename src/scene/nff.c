@@ -86,12 +86,12 @@ static enum turner_result read_view(struct nff *nff)
     TURNER_TRY(read_vec3(nff, &camera->at, at, -INFINITY));
     TURNER_TRY(turner_tokens_word(tokens, "up"));
     TURNER_TRY(read_vec3(nff, &camera->up, up, -INFINITY));
-    struct turner_vec3 forward = turner_vec3_normalize(turner_vec3_sub(camera->at, camera->from));
-    struct turner_vec3 side = turner_vec3_cross(forward, turner_vec3_normalize(camera->up));
-    if (turner_vec3_length(side) == 0)
-        return turner_tokens_fail(tokens, &start,
-                                  "the viewpoint (v) has no direction: \"from\" is \"at\", or "
-                                  "\"up\" lies along the view");
+    enum turner_camera_state state = turner_camera_check(camera);
+    if (state != TURNER_CAMERA_GOOD)
+        return turner_tokens_fail(tokens, &start, "the viewpoint (v) has no direction: %s",
+                                  state == TURNER_CAMERA_NO_DIRECTION
+                                      ? "\"from\" is \"at\""
+                                      : "\"up\" lies along the view");
 
     double degrees, hither;
     TURNER_TRY(turner_tokens_word(tokens, "angle"));
@@ -180,8 +180,11 @@ static enum turner_result read_fill(struct nff *nff)
     TURNER_TRY(turner_tokens_number(&nff->tokens, &index, "index of refraction of a fill (f)",
                                     -INFINITY, INFINITY));
     struct turner_material m = {.exponent = v[5], .fresnel = TURNER_FRESNEL_NONE,
-                                .medium = TURNER_NONE, .uv_scale = {1, 1}};
+                                .medium = TURNER_NONE, .uv_scale = {1, 1}, .image = TURNER_NONE};
     m.k_d = m.k_a = turner_vec3_scale(turner_vec3_of(v[0], v[1], v[2]), v[3]);
+    if (!turner_color_usable(m.k_d))
+        return turner_tokens_fail(&nff->tokens, &nff->tokens.last,
+                                  "a fill's (f) colour times Kd is beyond 3.4e38");
     m.k_s = m.k_r = turner_vec3_of(v[4], v[4], v[4]);
     m.k_t = turner_vec3_of(v[6], v[6], v[6]);
     if (v[6] > 0) {

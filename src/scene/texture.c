@@ -17,17 +17,6 @@ enum turner_result turner_scene_texture(uint32_t *image, struct turner_scene *sc
     struct turner_image picture;
     TURNER_TRY(turner_image_read(&picture, path, true));
     size_t pixels = (size_t)picture.width * (size_t)picture.height;
-    for (size_t i = 0; i < pixels; i++) {
-        for (int c = 0; c < 3; c++) {
-            if (isfinite(picture.rgba[4 * i + c]))
-                continue;
-            size_t width = (size_t)picture.width;
-            turner_image_destroy(&picture);
-            return turner_fail(TURNER_BAD_INPUT,
-                               "%s: the pixel at %zu,%zu is not a finite number; repair the "
-                               "picture", path, i % width, i / width);
-        }
-    }
     /* the fourth float is of no use: close the gaps in place, then give the rest back */
     for (size_t i = 0; i < pixels; i++)
         memmove(&picture.rgba[3 * i], &picture.rgba[4 * i], 3 * sizeof *picture.rgba);

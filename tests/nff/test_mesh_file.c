@@ -321,7 +321,8 @@ static const struct fault faults[] = {
     {"index.obj", THREE_VERTICES "f 1 2 4\n", "cannot be read as a mesh: "},
     {"index.ply", PLY("0 0 0\n1 0 0\n0 1 0\n", "3 0 1 3\n"), "uses vertex 3 (counted from 0), but "
                                                              "there are only 3; repair the file"},
-    {"index.gltf", QUAD_GLTF("{\"mesh\":0}", "CQA="), "faces use vertices that the file does not have"},
+    {"index.gltf", QUAD_GLTF("{\"mesh\":0}", "CQA="),
+     "faces use vertices that the file does not have"},
     {"no_nodes.gltf", "{\"asset\":{\"version\":\"2.0\"}}", "cannot be read as a mesh: "},
     {"no_buffer.gltf",
      "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
