@@ -213,7 +213,8 @@ TURNER_STRUCT(turner_gpu_scene)
     TURNER_VEC3(eye);
     TURNER_VEC3(right);   /* one pixel to the right on the plane at distance 1 */
     TURNER_VEC3(down);    /* one pixel down */
-    TURNER_VEC3(corner);  /* the picture's top left corner on that plane, from the eye */
+    TURNER_VEC3(forward); /* unit, to the picture's centre */
+    TURNER_VEC2(center);  /* of the picture, in pixels */
     uint background;
     TURNER_VEC3(background_color);
     TURNER_VEC3(background_top);

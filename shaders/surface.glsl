@@ -3,7 +3,7 @@
 
 struct surface_t {
     vec3 point;     // world
-    vec3 clearance; // world: from `point` to where rays start that leave on the outer side
+    float clearance; // rays that leave start this far from the tangent plane: the point's error
     vec3 ng;        // unit geometric normal as the geometry has it (outward)
     vec3 ns;        // unit interpolated normal, not yet flipped
     vec2 uv;
@@ -23,9 +23,16 @@ float turn(float y, float x) // angle / 2π, in [0,1)
     return a < 0.0 ? a + 1.0 : a;
 }
 
-void surface_of_sphere(inout surface_t surface, turner_gpu_primitive sphere, vec3 p)
+void surface_of_sphere(inout surface_t surface, turner_gpu_primitive sphere, vec3 p,
+                       vec3 direction)
 {
-    vec3 n = normalize(p - sphere.a);
+    // One step of Newton's along the ray, where it is not grazing, takes away the error of t; what
+    // is left of the distance to the sphere goes along the normal.
+    vec3 f = p - sphere.a;
+    float rise = dot(f, direction);
+    if (rise * rise > 0.01 * dot(f, f) * dot(direction, direction))
+        f -= ((length(f) - sphere.b.x) * length(f) / rise) * direction;
+    vec3 n = normalize(f);
     surface.point = sphere.a + sphere.b.x * n;
     surface.ng = n;
     if (NEEDS_ANY(UNKNOWN_UV))
@@ -96,7 +103,7 @@ surface_t surface_of_plane(ray_t ray, hit_t hit)
     vec3 across = surface.point - plane.point;
     surface.uv = vec2(dot(across, plane.tangent), dot(across, cross(plane.normal, plane.tangent)));
     float size = largest(abs(surface.point)) + largest(abs(plane.point));
-    surface.clearance = (CLEARANCE_ULPS * ULP * size) * plane.normal;
+    surface.clearance = CLEARANCE_ULPS * ULP * size;
     surface.material = plane.material & TURNER_MATERIAL_MASK;
     surface.transmissive = (plane.material & TURNER_MATERIAL_TRANSMISSIVE) != 0u;
     return surface;
@@ -122,7 +129,7 @@ surface_t surface_of(ray_t ray, hit_t hit)
     vec3 p = origin + hit.t * direction;
     float size = 0.0; // of the numbers the point is computed from, in group units
     if (NEEDS_ANY(TURNER_NEEDS_SPHERES) && kind == TURNER_KIND_SPHERE) {
-        surface_of_sphere(surface, primitive, p);
+        surface_of_sphere(surface, primitive, p, direction);
         size = largest(abs(primitive.a)) + primitive.b.x;
     }
     if (NEEDS_ANY(TURNER_NEEDS_CONES) && kind == TURNER_KIND_CONE) {
@@ -136,28 +143,32 @@ surface_t surface_of(ray_t ray, hit_t hit)
     } else {
         surface.ns = surface.ng;
     }
-    surface.clearance = (CLEARANCE_ULPS * ULP * size) * surface.ng;
+    surface.clearance = CLEARANCE_ULPS * ULP * size;
     if (NEEDS_ANY(TURNER_NEEDS_INSTANCES) && hit.instance != 0u) {
         turner_gpu_instance instance = instance_array(scene.instances).at[hit.instance];
         size += instance.spawn_scale;
-        surface.clearance = transform_vector(instance.to_world,
-                                             (CLEARANCE_ULPS * ULP * size) * surface.ng);
+        vec3 clear = transform_vector(instance.to_world,
+                                      (CLEARANCE_ULPS * ULP * size) * surface.ng);
         surface.point = transform_point(instance.to_world, surface.point);
         surface.ng = normalize(transform_transposed(instance.to_group, surface.ng));
         surface.ns = normalize(transform_transposed(instance.to_group, surface.ns));
+        surface.clearance = dot(clear, surface.ng);
     }
     surface.material = material & TURNER_MATERIAL_MASK;
     surface.transmissive = (material & TURNER_MATERIAL_TRANSMISSIVE) != 0u;
     return surface;
 }
 
-// The one way a ray leaves a surface: it starts off the surface on the side it leaves to, by a
-// bound of the error of the point, in the space where that was computed. No scene-scale epsilon.
-// The method is pbrt's ("Managing Rounding Error"), with points put back onto their surfaces as in
-// Wächter and Binder, "A fast and robust method for avoiding self-intersection", Ray Tracing Gems.
+// The one way a ray leaves a surface: it starts off the tangent plane on the side it leaves to, by a
+// bound of the error of the point, taken in the space where that was computed. No scene-scale
+// epsilon. The bound is pbrt's ("Managing Rounding Error") for points put back onto their surfaces.
+// The start moves along the ray itself, which costs the picture nothing, as far as that goes: a
+// grazing ray would have to go too far and moves along the normal for the rest.
 ray_t spawn_ray(surface_t surface, vec3 direction, float t_max)
 {
-    bool outward = dot(direction, surface.ng) > 0.0;
-    vec3 origin = surface.point + (outward ? surface.clearance : -surface.clearance);
+    float c = dot(direction, surface.ng);
+    float side = c > 0.0 ? surface.clearance : -surface.clearance;
+    float along = min(surface.clearance / abs(c), 16.0 * surface.clearance);
+    vec3 origin = surface.point + (along * direction + (side - along * c) * surface.ng);
     return ray_t(origin, direction, t_max);
 }

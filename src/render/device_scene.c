@@ -179,13 +179,12 @@ static void set_camera(struct turner_gpu_scene *block, const struct turner_scene
     struct turner_vec3 u = turner_vec3_normalize(turner_vec3_cross(camera->up, w));
     struct turner_vec3 v = turner_vec3_cross(w, u);
     double s = 2 * tan(camera->vfov / 2) / (scene->settings.spd_grid ? height - 2 : height);
-    struct turner_vec3 corner = turner_vec3_scale(w, -1);
-    corner = turner_vec3_add(corner, turner_vec3_scale(u, -0.5 * width * s));
-    corner = turner_vec3_add(corner, turner_vec3_scale(v, 0.5 * height * s));
     set_vec3(block->eye, camera->from);
     set_vec3(block->right, turner_vec3_scale(u, s));
     set_vec3(block->down, turner_vec3_scale(v, -s));
-    set_vec3(block->corner, corner);
+    set_vec3(block->forward, turner_vec3_scale(w, -1));
+    block->center[0] = (float)(0.5 * width);
+    block->center[1] = (float)(0.5 * height);
     block->inside = media_list(camera);
 }
 
