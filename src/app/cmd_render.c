@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "app/app.h"
+#include "image/atomic.h"
 #include "image/image.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
@@ -225,6 +226,8 @@ enum turner_result turner_cmd_render(int argc, char **argv)
         return turner_fail(TURNER_USAGE, "say where the picture goes: -o picture.png");
     if (a.output)
         TURNER_TRY(turner_image_check_writable(a.output));
+    if (a.stats && strcmp(a.stats, "-") != 0)
+        TURNER_TRY(turner_atomic_check(a.stats));
 
     struct turner_scene *scene;
     struct turner_statistics statistics = {0};

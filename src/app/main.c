@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <locale.h>
 #include <signal.h>
 #include <stdio.h>
@@ -41,17 +42,31 @@ static void interrupted(int signal_number)
 
 static void catch_signals(void)
 {
-    struct sigaction action = {.sa_handler = interrupted};
+    static const int ends[] = {SIGINT, SIGTERM, SIGHUP};
+    struct sigaction action = {.sa_handler = interrupted}, before;
     sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    sigaction(SIGHUP, &action, NULL);
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+        if (sigaction(ends[i], NULL, &before) == 0 && before.sa_handler == SIG_IGN)
+            continue; /* nohup, or a job in the background */
+        sigaction(ends[i], &action, NULL);
+    }
     signal(SIGPIPE, SIG_IGN);  /* a closed pipe becomes a failed write with a message */
     signal(SIGXFSZ, SIG_IGN);  /* so does the limit of file sizes */
 }
 
+/* A standard stream that came closed is opened the wrong way round, so that no file of ours takes
+ * its number and gets our text; using it still fails. */
+static void hold_standard_streams(void)
+{
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; stream++) {
+        if (fcntl(stream, F_GETFD) == -1)
+            open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    }
+}
+
 int main(int argc, char **argv)
 {
+    hold_standard_streams();
     setlocale(LC_ALL, "C");
     catch_signals();
     if (argc < 2) {

@@ -9,8 +9,11 @@
 
 enum turner_result turner_bad_option(char **argv)
 {
+    /* inside a cluster of short options (-xq) optind has not moved on yet */
+    const char letter[] = {'-', (char)optopt, 0};
+    bool is_short = optopt > 0 && optopt < 256 && strncmp(argv[optind - 1], "--", 2) != 0;
     return turner_fail(TURNER_USAGE, "option \"%s\" is unknown or lacks its value; see turner %s "
-                                     "--help", argv[optind - 1], argv[0]);
+                                     "--help", is_short ? letter : argv[optind - 1], argv[0]);
 }
 
 enum turner_result turner_option_real(double *out, const char *option, const char *text,

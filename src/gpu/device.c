@@ -132,7 +132,7 @@ static enum turner_result choose(uint32_t *chosen, const struct turner_gpu_info 
         size_t used = strlen(names);
         snprintf(names + used, sizeof names - used, "%s%u: %s", i ? ", " : "", i, infos[i].name);
     }
-    return turner_fail(TURNER_USAGE, "no device \"%s\"; there are %s", wanted, names);
+    return turner_fail(TURNER_USAGE, "no device \"%s\"; those here are %s", wanted, names);
 }
 
 static enum turner_result create_device(struct turner_gpu *gpu)

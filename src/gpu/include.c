@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/memory.h"
 
@@ -291,11 +292,28 @@ static enum turner_result expand(struct expansion *e, size_t index, bool conditi
     return TURNER_OK;
 }
 
+/* A mistyped folder would otherwise go unnoticed: what is not found there is built in. */
+static enum turner_result check_folders(const char *const *folders, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        struct stat status;
+        int error = stat(folders[i], &status) != 0          ? errno
+                    : !S_ISDIR(status.st_mode)              ? ENOTDIR
+                    : access(folders[i], R_OK | X_OK) != 0 ? errno
+                                                            : 0;
+        if (error)
+            return turner_fail(TURNER_BAD_INPUT, "shader folder %s: %s; check its name",
+                               folders[i], strerror(error));
+    }
+    return TURNER_OK;
+}
+
 enum turner_result turner_shader_source_create(struct turner_shader_source *source,
                                                const char *name, const char *const *folders,
                                                size_t folder_count)
 {
     *source = (struct turner_shader_source){0};
+    TURNER_TRY(check_folders(folders, folder_count));
     struct expansion e = {.source = source, .folders = folders, .folder_count = folder_count};
     size_t index;
     enum turner_result result = find_file(&e, name, &index);

@@ -38,8 +38,8 @@ struct turner_shader_source {
 
 /* Reads `name` and expands it. `source` owns everything; destroy it also after a failure: it then
  * holds the files read so far, so that a program that watches them sees the repair.
- * TURNER_BAD_INPUT with "file:line: …" and the folders searched for a file that is not there or
- * unreadable, a malformed #include, too much nesting or text, or a zero byte. */
+ * TURNER_BAD_INPUT for a folder that is not there or not readable, and with "file:line: …" and the
+ * folders searched for a file that is not there or unreadable, a malformed #include, too much nesting or text, or a zero byte. */
 enum turner_result turner_shader_source_create(struct turner_shader_source *source,
                                                const char *name, const char *const *folders,
                                                size_t folder_count);

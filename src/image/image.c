@@ -13,12 +13,13 @@ enum turner_result turner_image_create(struct turner_image *image, int width, in
     }
     size_t pixels = (size_t)width * (size_t)height, bytes = pixels * 4 * sizeof(float);
     /* calloc promises more than there is; the pages are touched later, when nobody can refuse */
-    if (bytes <= turner_memory_available())
+    uint64_t available = turner_memory_available();
+    if (bytes <= available)
         image->rgba = calloc(pixels, 4 * sizeof(float));
     if (!image->rgba) {
-        return turner_fail(TURNER_DEVICE, "a picture of %d×%d pixels takes %.1f MiB, more than "
-                                          "there is memory; choose a smaller size",
-                           width, height, (double)bytes / 1048576);
+        return turner_fail(TURNER_DEVICE, "a picture of %d×%d pixels takes %.1f MiB, but only "
+                                          "%.1f MiB of memory are free; choose a smaller size",
+                           width, height, (double)bytes / 1048576, (double)available / 1048576);
     }
     image->width = width;
     image->height = height;

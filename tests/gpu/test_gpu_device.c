@@ -139,7 +139,7 @@ static void lists_and_chooses(void **state)
     int status;
     const char *output = run(&status, NULL, NULL, "open", "no such device");
     assert_int_equal(status, TURNER_USAGE);
-    assert_output(output, "no device \"no such device\"; there are 0: ");
+    assert_output(output, "no device \"no such device\"; those here are 0: ");
     assert_output(output, infos[0].name);
     output = run(&status, NULL, NULL, "open", "18446744073709551616");
     assert_int_equal(status, TURNER_USAGE);
