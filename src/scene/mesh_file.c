@@ -245,23 +245,23 @@ static bool is_zero(const float v[3])
 static void complete_normals(struct reading *r)
 {
     struct turner_mesh *mesh = &r->mesh;
-    if (!r->normals) {
-        if (r->smooth == 1)
-            turner_mesh_smooth(mesh);
+    bool complete = r->normals;
+    for (uint32_t i = 0; complete && i < mesh->vertex_count; i++)
+        complete = !is_zero(mesh->normals[i]);
+    if (complete)
         return;
-    }
     if (r->smooth == 1) {
         float(*given)[3] = mesh->normals;
         mesh->normals = NULL;
         turner_mesh_smooth(mesh);
-        for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+        for (uint32_t i = 0; given && i < mesh->vertex_count; i++) {
             if (!is_zero(given[i]))
                 memcpy(mesh->normals[i], given[i], sizeof given[i]);
         }
         free(given);
         return;
     }
-    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+    for (uint32_t i = 0; mesh->normals && i < mesh->triangle_count; i++) {
         const uint32_t *t = mesh->triangles[i];
         for (int c = 0; c < 3; c++) {
             float *normal = mesh->normals[t[c]];
