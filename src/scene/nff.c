@@ -44,7 +44,7 @@ static enum turner_result read_numbers(struct nff *nff, double *values, size_t c
                                        const char *const *names, double low)
 {
     for (size_t i = 0; i < count; i++)
-        TURNER_TRY(turner_tokens_number(&nff->tokens, &values[i], names[i], low, INFINITY));
+        TURNER_TRY(turner_tokens_number(&nff->tokens, &values[i], names[i], low, HUGE_VAL));
     return TURNER_OK;
 }
 
@@ -81,11 +81,11 @@ static enum turner_result read_view(struct nff *nff)
         return turner_tokens_fail(tokens, &start, "a second viewpoint (v)");
     nff->has_view = true;
     TURNER_TRY(turner_tokens_word(tokens, "from"));
-    TURNER_TRY(read_vec3(nff, &camera->from, from, -INFINITY));
+    TURNER_TRY(read_vec3(nff, &camera->from, from, -HUGE_VAL));
     TURNER_TRY(turner_tokens_word(tokens, "at"));
-    TURNER_TRY(read_vec3(nff, &camera->at, at, -INFINITY));
+    TURNER_TRY(read_vec3(nff, &camera->at, at, -HUGE_VAL));
     TURNER_TRY(turner_tokens_word(tokens, "up"));
-    TURNER_TRY(read_vec3(nff, &camera->up, up, -INFINITY));
+    TURNER_TRY(read_vec3(nff, &camera->up, up, -HUGE_VAL));
     enum turner_camera_state state = turner_camera_check(camera);
     if (state != TURNER_CAMERA_GOOD)
         return turner_tokens_fail(tokens, &start, "the viewpoint (v) has no direction: %s",
@@ -101,8 +101,8 @@ static enum turner_result read_view(struct nff *nff)
                                   "the \"angle\" must lie between 0 and 180, without these");
     camera->vfov = degrees * RADIANS;
     TURNER_TRY(turner_tokens_word(tokens, "hither")); /* means nothing to a ray tracer */
-    TURNER_TRY(turner_tokens_number(tokens, &hither, "distance of \"hither\"", -INFINITY,
-                                    INFINITY));
+    TURNER_TRY(turner_tokens_number(tokens, &hither, "distance of \"hither\"", -HUGE_VAL,
+                                    HUGE_VAL));
     TURNER_TRY(turner_tokens_word(tokens, "resolution"));
     TURNER_TRY(turner_tokens_integer(tokens, &settings->width, "width of \"resolution\"", 1,
                                      TURNER_MAX_SIZE));
@@ -117,7 +117,7 @@ static enum turner_result read_light(struct nff *nff)
     struct turner_scene *scene = nff->scene;
     struct turner_light light = {.kind = TURNER_LIGHT_POINT, .falloff = TURNER_FALLOFF_NONE,
                                  .power = {1, 1, 1}};
-    TURNER_TRY(read_vec3(nff, &light.position, place, -INFINITY));
+    TURNER_TRY(read_vec3(nff, &light.position, place, -HUGE_VAL));
     if (turner_tokens_at_number(&nff->tokens))
         TURNER_TRY(read_vec3(nff, &light.power, color, 0));
     if (scene->light_count == TURNER_MAX_LIGHTS)
@@ -178,7 +178,7 @@ static enum turner_result read_fill(struct nff *nff)
     double v[7], index;
     TURNER_TRY(read_numbers(nff, v, 7, names, 0));
     TURNER_TRY(turner_tokens_number(&nff->tokens, &index, "index of refraction of a fill (f)",
-                                    -INFINITY, INFINITY));
+                                    -HUGE_VAL, HUGE_VAL));
     struct turner_material m = {.exponent = v[5], .fresnel = TURNER_FRESNEL_NONE,
                                 .medium = TURNER_NONE, .uv_scale = {1, 1}, .image = TURNER_NONE};
     m.k_d = m.k_a = turner_vec3_scale(turner_vec3_of(v[0], v[1], v[2]), v[3]);
@@ -216,7 +216,7 @@ static enum turner_result read_sphere(struct nff *nff)
     static const char *const names[] = {"x of a sphere (s)", "y of a sphere (s)",
                                         "z of a sphere (s)", "radius of a sphere (s)"};
     double v[4];
-    TURNER_TRY(read_numbers(nff, v, 4, names, -INFINITY));
+    TURNER_TRY(read_numbers(nff, v, 4, names, -HUGE_VAL));
     if (v[3] == 0) {
         nff->skipped++;
         return TURNER_OK;
@@ -233,7 +233,7 @@ static enum turner_result read_cone(struct nff *nff)
         "radius of a cone's (c) base", "x of a cone's (c) apex", "y of a cone's (c) apex",
         "z of a cone's (c) apex", "radius of a cone's (c) apex"};
     double v[8];
-    TURNER_TRY(read_numbers(nff, v, 8, names, -INFINITY));
+    TURNER_TRY(read_numbers(nff, v, 8, names, -HUGE_VAL));
     struct turner_cone cone = {{v[0], v[1], v[2]}, {v[4], v[5], v[6]}, fabs(v[3]), fabs(v[7]),
                                false, nff->material};
     if (same_vec3(cone.base, cone.apex) || (cone.base_radius == 0 && cone.apex_radius == 0)) {
@@ -296,7 +296,7 @@ static enum turner_result read_polygon(struct nff *nff)
     polygon->corner_count = 0;
     for (int i = 0; i < count; i++) {
         struct turner_vec3 corner;
-        TURNER_TRY(read_vec3(nff, &corner, corner_names, -INFINITY));
+        TURNER_TRY(read_vec3(nff, &corner, corner_names, -HUGE_VAL));
         *TURNER_PUSH(polygon->corners, polygon->corner_count, polygon->corner_capacity) = corner;
     }
     if (turner_polygon_triangulate(polygon) != TURNER_OK)
@@ -364,8 +364,8 @@ static enum turner_result read_patch(struct nff *nff)
     bool has_area = false;
     for (int i = 0; i < count; i++) {
         struct patch_corner *corner = &fan[i < 2 ? i : 2];
-        TURNER_TRY(read_vec3(nff, &corner->position, corner_names, -INFINITY));
-        TURNER_TRY(read_vec3(nff, &corner->normal, normal_names, -INFINITY));
+        TURNER_TRY(read_vec3(nff, &corner->position, corner_names, -HUGE_VAL));
+        TURNER_TRY(read_vec3(nff, &corner->normal, normal_names, -HUGE_VAL));
         if (i >= 2) {
             has_area |= add_patch_triangle(nff, fan);
             fan[1] = fan[2];

@@ -85,7 +85,7 @@ static void check_in(const struct outline *o, double area, const struct frame *f
         fail_msg("area %.12g instead of %.12g", sum, area);
 
     double(*flat)[2] = turner_calloc(polygon.corner_count, sizeof *flat);
-    double low = INFINITY, high = -INFINITY;
+    double low = HUGE_VAL, high = -HUGE_VAL;
     for (size_t i = 0; i < polygon.corner_count; i++) {
         struct turner_vec3 p = turner_vec3_sub(polygon.corners[i], frame->origin);
         flat[i][0] = turner_vec3_dot(p, frame->x);
