@@ -13,6 +13,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default) /* all else stays inside the library */
 
 /* Also the exit status of the command. */
 enum turner_result {
@@ -94,6 +95,7 @@ enum turner_result turner_render(struct turner_image *image, const struct turner
                                  const struct turner_render_options *options,
                                  struct turner_statistics *statistics);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif
