@@ -17,7 +17,7 @@ macro(check case reference picture expected)
     if(EXISTS ${WORK}/pictures/${reference})
         file(COPY ${WORK}/pictures/${reference} DESTINATION ${WORK}/${case})
     endif()
-    execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/${case}
+    execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/${case} -G Ninja
         -DMODULE=${MODULE} -DTURNER_EXECUTABLE=${SOURCE}/fake_turner.sh
         -DREFERENCE=${WORK}/${case}/${reference} "-DEXTRA_ARGS=${extra}"
         OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
