@@ -20,7 +20,8 @@ static const char quad_obj[] =
 
 /* The same quad, two triangles; glTF has v = 0 at the top. NODES, then INDEX, the last index. */
 #define QUAD_GLTF(nodes, tail)                                                                     \
-    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[" nodes   \
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":["         \
+    nodes                                                                                          \
     "],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1,"                 \
     "\"TEXCOORD_0\":2},\"indices\":3}]}],\"accessors\":["                                          \
     "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\","                      \
