@@ -5,9 +5,9 @@ The spheres are those of the "balls" scene of Eric Haines's Standard Procedural 
 has 7,381 of them, depth 5 66,430). Two kinds of scene come out:
 
   --format nff   the database's own scene: floor, camera and lights as published, z up
-  --format json  a composed picture of the same flake: gold on a checkered floor under the sky, y up
+  --format json  a composed picture: gold in the evening, y up, made of instances of one twig
 
-Example: tools/make_sphereflake.py --depth 4 --format json -o scenes/sphereflake.json
+Example: tools/make_sphereflake.py --depth 5 --format json -o scenes/sphereflake.json
 """
 import argparse
 import json
@@ -76,35 +76,70 @@ def write_nff(out, spheres):
         out.write(f"s {x:.6g} {y:.6g} {z:.6g} {radius:.6g}\n")
 
 
-def write_json(out, spheres, depth, count):
+TWIG = 2  # generations of the group that is put many times
+
+
+def branches(depth, frame, center, radius):
+    """Yields (depth left, frame, center, radius) of every sphere that is no part of a twig, and of
+    each twig's first one (depth left TWIG or less). A child's frame (a rotation) is its parent's,
+    turned on: so all twigs are one shape, and differ from flake()'s by a turn about themselves."""
+    yield depth, frame, center, radius
+    if depth <= TWIG:
+        return
+    for child in CHILDREN:
+        way = apply(frame, child)
+        columns = (apply(frame, column) for column in zip(*towards(child)))
+        yield from branches(depth - 1, tuple(zip(*columns)),
+                            tuple(c + radius * 4 / 3 * w for c, w in zip(center, way)), radius / 3)
+
+
+def write_json(out, depth):
+    count = (9 ** (depth + 1) - 1) // 8
     scene = {
+        "$schema": "schema.json",
         "version": 1,
         "description": f"A sphereflake of {count:,} gold spheres: each carries nine of a third of "
-                       f"its size, {depth} times over. Written by tools/make_sphereflake.py.",
-        "settings": {"size": [640, 480], "depth": 6, "spp": 4},
-        "camera": {"from": [1.35, 0.86, 2.3], "at": [0, 0.56, 0], "vfov": 42},
-        "ambient": 0.12,
-        "background": {"type": "gradient", "bottom": [0.75, 0.78, 0.8], "top": [0.12, 0.3, 0.62]},
+                       f"its size, {depth} times over. Only the last twigs are in the file; their "
+                       "instances make the rest. Written by tools/make_sphereflake.py.",
+        "settings": {"size": [640, 480], "spp": 4, "depth": 3, "cutoff": 0.02},
+        "camera": {"from": [1.9, 1.25, 2.9], "at": [0.02, 0.46, 0], "vfov": 30},
+        "ambient": [0.10, 0.11, 0.14],
+        "background": {"type": "gradient", "bottom": [1.5, 0.95, 0.60], "top": [0.04, 0.20, 0.62]},
         "materials": {
-            "gold": {"metal": "gold", "k_d": [0.06, 0.04, 0.01], "k_a": [0.1, 0.07, 0.02],
-                     "k_s": 0.35, "k_r": 0.85, "exponent": 60},
-            "floor": {"k_d": 0.85, "k_a": 0.85, "k_r": 0.06,
-                      "pattern": {"type": "checker", "colors": [[0.62, 0.64, 0.66],
-                                                                [0.16, 0.2, 0.26]], "scale": 1}},
+            "gold": {"metal": "gold", "k_d": [0.22, 0.13, 0.035], "k_a": [0.1, 0.07, 0.02],
+                     "k_s": 0.05, "k_r": 0.9, "exponent": 120},
+            "floor": {"k_d": [0.03, 0.045, 0.07], "k_a": [0.03, 0.04, 0.06], "k_r": 0.10},
         },
         "lights": [
-            {"type": "directional", "direction": [-0.5, -1, -0.35], "irradiance": [2.4, 2.3, 2.1]},
+            {"type": "directional", "direction": [-0.5, -1, -0.35], "irradiance": [5, 4.2, 3.2]},
             {"type": "point", "position": [-3, 4, 3], "intensity": [6, 6.5, 8]},
         ],
     }
-    lines = [json.dumps({"type": "plane", "point": [0, 0, 0], "normal": [0, 1, 0],
-                         "material": "floor"})]
-    for (x, y, z), radius in spheres:  # z up becomes y up, and the flake is put on the floor
-        lines.append(json.dumps({"type": "sphere",
-                                 "center": [round(y, 6), round(z + 0.5, 6), round(x, 6)],
-                                 "radius": round(radius, 6), "material": "gold"}))
-    text = json.dumps(scene, indent=2)
-    out.write(text[:-2] + ',\n  "primitives": [\n    ' + ",\n    ".join(lines) + "\n  ]\n}\n")
+    up = lambda v: (v[1], v[2], v[0])  # z up becomes y up
+    spheres, instances = [], []
+    for left, frame, center, radius in branches(depth, towards((0, 0, 1)), (0, 0, 0.5), 0.5):
+        if left > TWIG:
+            spheres.append(sphere(up(center), radius))
+            continue
+        rows = [[radius * v for v in up(row)] + [c] for row, c in zip(frame, center)]
+        matrix = [round(v, 6) for row in up(rows) for v in row]
+        instances.append({"group": "twig", "transform": {"matrix": matrix}})
+    twig = [sphere(up(center), radius)
+            for center, radius in flake(min(depth, TWIG), (0, 0, 0), (0, 0, 1), 1)]
+    floor = {"type": "plane", "point": [0, 0, 0], "normal": [0, 1, 0], "material": "floor"}
+
+    def listed(items, indent):
+        return "[\n" + ",\n".join(indent + json.dumps(i) for i in items) + "\n" + indent[2:] + "]"
+
+    out.write(json.dumps(scene, indent=2)[:-2]
+              + ',\n  "primitives": ' + listed([floor] + spheres, "    ")
+              + ',\n  "groups": {\n    "twig": ' + listed(twig, "      ") + "\n  }"
+              + ',\n  "instances": ' + listed(instances, "    ") + "\n}\n")
+
+
+def sphere(center, radius):
+    return {"type": "sphere", "center": [round(c, 6) for c in center],
+            "radius": round(radius, 6), "material": "gold"}
 
 
 def main():
@@ -119,14 +154,12 @@ def main():
     form = arguments.format
     if not form:
         form = "nff" if (arguments.output or "").endswith(".nff") else "json"
-    spheres = flake(arguments.depth, (0, 0, 0), (0, 0, 1), 0.5)
     out = open(arguments.output, "w", encoding="utf-8") if arguments.output else sys.stdout
     with out:
         if form == "nff":
-            write_nff(out, spheres)
+            write_nff(out, flake(arguments.depth, (0, 0, 0), (0, 0, 1), 0.5))
         else:
-            count = (9 ** (arguments.depth + 1) - 1) // 8
-            write_json(out, spheres, arguments.depth, count)
+            write_json(out, arguments.depth)
 
 
 if __name__ == "__main__":

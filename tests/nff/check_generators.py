@@ -1,6 +1,7 @@
 """The scene generators in tools/: meshes are closed and wound outward, their normals fit, and the
 sphereflake is the one of the SPD. Usage: check_generators.py SOURCE_DIR BINARY_DIR SHARED_DIR"""
 import json
+import math
 import pathlib
 import struct
 import subprocess
@@ -60,9 +61,21 @@ for shape in ("bumps", "knot"):
         check_mesh(*read(path), 3000)
 
 path = BINARY / "generated_flake.json"
-run("make_sphereflake.py", "--depth", 2, "-o", path)
-spheres = [p for p in json.loads(path.read_text())["primitives"] if p["type"] == "sphere"]
-assert len(spheres) == 91 and min(p["center"][1] - p["radius"] for p in spheres) > -1e-6
+run("make_sphereflake.py", "--depth", 4, "-o", path)
+flake = json.loads(path.read_text())
+spheres = [(p["center"], p["radius"]) for p in flake["primitives"] if p["type"] == "sphere"]
+for instance in flake["instances"]:
+    m = instance["transform"]["matrix"]
+    rows = [(m[i:i + 3], m[i + 3]) for i in (0, 4, 8)]
+    scale = math.hypot(*rows[0][0])
+    spheres += [([sum(a * c for a, c in zip(row, p["center"])) + shift for row, shift in rows],
+                 scale * p["radius"]) for p in flake["groups"]["twig"]]
+assert len(spheres) == 7381 and min(center[1] - radius for center, radius in spheres) > -1e-5
+# every sphere but the first touches one three times its size
+large = [s for s in spheres if s[1] > 0.015]
+for center, radius in spheres[::37]:
+    assert radius > 0.4 or any(abs(math.dist(center, c) - r - radius) < 1e-5 and
+                               abs(r - 3 * radius) < 1e-5 for c, r in large)
 
 published = SHARED / "scenes" / "nff" / "balls.nff"
 if published.exists():
