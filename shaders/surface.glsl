@@ -17,12 +17,6 @@ const uint UNKNOWN_UV = TURNER_NEEDS_CHECKER | TURNER_NEEDS_IMAGES;
 // surface below, so the error is that of a few operations on numbers of the size of the point.
 const float CLEARANCE_ULPS = 8.0;
 
-float turn(float y, float x) // angle / 2π, in [0,1)
-{
-    float a = atan(y, x) / (2.0 * PI);
-    return a < 0.0 ? a + 1.0 : a;
-}
-
 void surface_of_sphere(inout surface_t surface, turner_gpu_primitive sphere, vec3 p,
                        vec3 direction)
 {
@@ -36,8 +30,7 @@ void surface_of_sphere(inout surface_t surface, turner_gpu_primitive sphere, vec
     surface.point = sphere.a + sphere.b.x * n;
     surface.ng = n;
     if (NEEDS_ANY(UNKNOWN_UV))
-        surface.uv = vec2(0.5 + (n.x == 0.0 && n.z == 0.0 ? 0.0 : atan(n.x, n.z)) / (2.0 * PI),
-                          0.5 + asin(clamp(n.y, -1.0, 1.0)) / PI);
+        surface.uv = longitude_latitude(n);
 }
 
 void surface_of_cone(inout surface_t surface, turner_gpu_primitive cone, vec3 p, float part)
@@ -64,8 +57,8 @@ void surface_of_cone(inout surface_t surface, turner_gpu_primitive cone, vec3 p,
         vec3 shortest = a.x <= a.y && a.x <= a.z ? vec3(1, 0, 0)
                         : a.y <= a.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
         vec3 e1 = normalize(cross(n, shortest));
-        float angle = side_length > 0.0 ? turn(dot(side, cross(n, e1)), dot(side, e1)) : 0.0;
-        surface.uv = vec2(angle, h / axis_length);
+        float angle = turn(dot(side, cross(n, e1)), dot(side, e1));
+        surface.uv = vec2(angle < 0.0 ? angle + 1.0 : angle, h / axis_length);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "media.glsl"
 #include "trace.glsl"
 #include "texture.glsl"
+#include "angle.glsl"
 #include "surface.glsl"
 #include "material.glsl"
 #include "fresnel.glsl"
