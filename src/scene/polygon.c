@@ -155,8 +155,16 @@ static bool is_simple(const struct outline *o)
 struct ring {
     uint32_t *next, *previous;
     bool *ear;
+    uint32_t *blunt; /* the corners left at which the outline does not turn left */
+    size_t blunt_count;
 };
 
+static bool is_blunt(const struct outline *o, const struct ring *ring, uint32_t i)
+{
+    return orient(o->points[ring->previous[i]], o->points[i], o->points[ring->next[i]]) <= 0;
+}
+
+/* A triangle that holds any part of a simple outline holds one of its blunt corners. */
 static bool is_ear(const struct outline *o, const struct ring *ring, uint32_t tip)
 {
     uint32_t first = ring->previous[tip], last = ring->next[tip];
@@ -165,13 +173,27 @@ static bool is_ear(const struct outline *o, const struct ring *ring, uint32_t ti
         return false;
     double low_x = least(a.x, least(b.x, c.x)), high_x = most(a.x, most(b.x, c.x));
     double low_y = least(a.y, least(b.y, c.y)), high_y = most(a.y, most(b.y, c.y));
-    for (uint32_t i = ring->next[last]; i != first; i = ring->next[i]) {
+    for (size_t k = 0; k < ring->blunt_count; k++) {
+        uint32_t i = ring->blunt[k];
         struct point p = o->points[i];
-        if (p.x >= low_x && p.x <= high_x && p.y >= low_y && p.y <= high_y &&
-            orient(a, b, p) >= 0 && orient(b, c, p) >= 0 && orient(c, a, p) >= 0)
+        if (p.x >= low_x && p.x <= high_x && p.y >= low_y && p.y <= high_y && i != first &&
+            i != last && orient(a, b, p) >= 0 && orient(b, c, p) >= 0 && orient(c, a, p) >= 0)
             return false;
     }
     return true;
+}
+
+/* After an ear beside corner i was cut: a blunt corner may have become a sharp one, never the
+ * other way round. */
+static void update_blunt(const struct outline *o, struct ring *ring, uint32_t i)
+{
+    for (size_t k = 0; k < ring->blunt_count; k++) {
+        if (ring->blunt[k] == i) {
+            if (!is_blunt(o, ring, i))
+                ring->blunt[k] = ring->blunt[--ring->blunt_count];
+            return;
+        }
+    }
 }
 
 /* A simple outline always has an ear; cutting one changes only whether its two neighbours are
@@ -181,10 +203,15 @@ static bool cut_ears(struct turner_polygon *polygon, const struct outline *o)
     size_t left = o->count;
     struct ring ring = {turner_calloc(left, sizeof *ring.next),
                         turner_calloc(left, sizeof *ring.previous),
-                        turner_calloc(left, sizeof *ring.ear)};
+                        turner_calloc(left, sizeof *ring.ear),
+                        turner_calloc(left, sizeof *ring.blunt), 0};
     for (uint32_t i = 0; i < left; i++) {
         ring.next[i] = i + 1 < left ? i + 1 : 0;
         ring.previous[i] = i ? i - 1 : (uint32_t)left - 1;
+    }
+    for (uint32_t i = 0; i < left; i++) {
+        if (is_blunt(o, &ring, i))
+            ring.blunt[ring.blunt_count++] = i;
     }
     for (uint32_t i = 0; i < left; i++)
         ring.ear[i] = is_ear(o, &ring, i);
@@ -203,6 +230,8 @@ static bool cut_ears(struct turner_polygon *polygon, const struct outline *o)
         ring.next[before] = after;
         ring.previous[after] = before;
         left--;
+        update_blunt(o, &ring, before);
+        update_blunt(o, &ring, after);
         ring.ear[before] = is_ear(o, &ring, before);
         ring.ear[after] = is_ear(o, &ring, after);
         i = ring.next[after]; /* not after itself: that would make a fan of slivers */
@@ -214,6 +243,7 @@ static bool cut_ears(struct turner_polygon *polygon, const struct outline *o)
     free(ring.next);
     free(ring.previous);
     free(ring.ear);
+    free(ring.blunt);
     return done;
 }
 
