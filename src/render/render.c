@@ -68,19 +68,26 @@ static enum turner_result draw_on_device(struct turner_image *image,
                                          struct turner_statistics *statistics)
 {
     struct turner_gpu gpu;
+    struct turner_kernel kernel = {0};
     struct turner_renderer renderer = {0};
+    bool ray_query;
     enum turner_result result;
     double start = turner_seconds();
     TURNER_TRY_DONE(turner_gpu_create(&gpu, options->device, false));
     statistics->seconds_device = turner_seconds() - start;
     snprintf(statistics->device, sizeof statistics->device, "%s", gpu.info.name);
     snprintf(statistics->driver, sizeof statistics->driver, "%s", gpu.info.driver);
-    TURNER_TRY_DONE(turner_renderer_create(&renderer, &gpu, scene, options, statistics));
-    statistics->traversal = renderer.ray_query ? "ray_query" : "bvh";
+    TURNER_TRY_DONE(turner_choose_traversal(&ray_query, &gpu.info, options->traversal));
+    start = turner_seconds();
+    TURNER_TRY_DONE(turner_kernel_create(&kernel, ray_query, options));
+    statistics->seconds_compile = turner_seconds() - start;
+    TURNER_TRY_DONE(turner_renderer_create(&renderer, &gpu, &kernel, scene, options, statistics));
+    statistics->traversal = ray_query ? "ray_query" : "bvh";
     statistics->precision = "f32";
     TURNER_TRY_DONE(turner_renderer_draw(&renderer, image, options, statistics));
 done:
     turner_renderer_destroy(&renderer);
+    turner_kernel_destroy(&kernel);
     statistics->device_peak_bytes = gpu.memory_peak;
     turner_gpu_destroy(&gpu);
     return result;

@@ -35,38 +35,53 @@ enum turner_result turner_choose_traversal(bool *ray_query, const struct turner_
     return TURNER_OK;
 }
 
-static enum turner_result compile(struct turner_renderer *renderer,
-                                  const struct turner_render_options *options,
-                                  struct turner_statistics *statistics)
+enum turner_result turner_kernel_create(struct turner_kernel *kernel, bool ray_query,
+                                        const struct turner_render_options *options)
 {
+    memset(kernel, 0, sizeof *kernel);
+    kernel->ray_query = ray_query;
     struct turner_shader_source source;
-    struct turner_spirv spirv = {0};
     enum turner_result result;
     TURNER_TRY_DONE(turner_shader_source_create(&source, "render.comp", options->shader_dirs,
                                                 options->shader_dir_count));
     const char *defines[] = {"TURNER_RAY_QUERY"};
-    TURNER_TRY_DONE(turner_compile(&spirv, &source, defines, renderer->ray_query ? 1 : 0));
-    struct turner_constant constants[] = {
-        {TURNER_CONSTANT_NEEDS, renderer->needs.bits},
-        {TURNER_CONSTANT_STACK, renderer->needs.stack},
-        {TURNER_CONSTANT_BVH_STACK, renderer->flat.max_depth > 1 ? renderer->flat.max_depth : 1},
-    };
-    statistics->kernel_words = spirv.count;
-    TURNER_TRY_DONE(turner_program_create(&renderer->program, renderer->gpu, &spirv, constants,
-                                          sizeof constants / sizeof *constants, VK_NULL_HANDLE));
+    TURNER_TRY_DONE(turner_compile(&kernel->spirv, &source, defines, ray_query ? 1 : 0));
 done:
-    turner_spirv_destroy(&spirv);
     turner_shader_source_destroy(&source);
     return result;
 }
 
+void turner_kernel_destroy(struct turner_kernel *kernel)
+{
+    turner_spirv_destroy(&kernel->spirv);
+}
+
+/* Sizes are rounded up so that scenes that differ a little share the driver's compiled code. */
+static uint32_t round_up(uint32_t size, uint32_t step)
+{
+    return (size + step - 1) / step * step;
+}
+
+static enum turner_result specialise(struct turner_renderer *renderer,
+                                     const struct turner_kernel *kernel)
+{
+    const struct turner_needs *needs = &renderer->needs;
+    struct turner_constant constants[] = {
+        {TURNER_CONSTANT_NEEDS, needs->bits},
+        {TURNER_CONSTANT_STACK, needs->stack > 1 ? round_up(needs->stack, 8) : 1},
+        {TURNER_CONSTANT_BVH_STACK, round_up(renderer->flat.max_depth + 1, 16)},
+    };
+    return turner_program_create(&renderer->program, renderer->gpu, &kernel->spirv, constants,
+                                 sizeof constants / sizeof *constants, VK_NULL_HANDLE);
+}
+
 static enum turner_result create(struct turner_renderer *renderer,
+                                 const struct turner_kernel *kernel,
                                  const struct turner_scene *scene,
                                  const struct turner_render_options *options,
                                  struct turner_statistics *statistics)
 {
     struct turner_gpu *gpu = renderer->gpu;
-    TURNER_TRY(turner_choose_traversal(&renderer->ray_query, &gpu->info, options->traversal));
     if (options->unspecialised)
         renderer->needs.bits = TURNER_NEEDS_ALL;
 
@@ -74,8 +89,8 @@ static enum turner_result create(struct turner_renderer *renderer,
     TURNER_TRY(turner_flat_create(&renderer->flat, scene,
                                   renderer->ray_query ? TURNER_ORDER_MEDIAN : TURNER_ORDER_SAH));
     double built = turner_seconds();
-    TURNER_TRY(compile(renderer, options, statistics));
-    double compiled = turner_seconds();
+    TURNER_TRY(specialise(renderer, kernel));
+    double specialised = turner_seconds();
     TURNER_TRY(turner_device_scene_create(&renderer->scene, gpu, scene, &renderer->flat,
                                           &renderer->needs, renderer->ray_query));
     if (renderer->ray_query)
@@ -87,8 +102,9 @@ static enum turner_result create(struct turner_renderer *renderer,
     TURNER_TRY(turner_buffer_create(&renderer->counters, gpu, sizeof(struct turner_gpu_counters),
                                     0, TURNER_MEMORY_HOST, "ray counters"));
     statistics->seconds_build = built - start;
-    statistics->seconds_compile = compiled - built;
-    statistics->seconds_upload = turner_seconds() - compiled;
+    statistics->seconds_compile += specialised - built;
+    statistics->seconds_upload = turner_seconds() - specialised;
+    statistics->kernel_words = kernel->spirv.count;
     statistics->needs = renderer->needs.bits;
     statistics->primitives = renderer->flat.primitive_count + scene->plane_count;
     statistics->instances = scene->instance_count;
@@ -96,18 +112,20 @@ static enum turner_result create(struct turner_renderer *renderer,
 }
 
 enum turner_result turner_renderer_create(struct turner_renderer *renderer, struct turner_gpu *gpu,
+                                          const struct turner_kernel *kernel,
                                           const struct turner_scene *scene,
                                           const struct turner_render_options *options,
                                           struct turner_statistics *statistics)
 {
     memset(renderer, 0, sizeof *renderer);
     renderer->gpu = gpu;
+    renderer->ray_query = kernel->ray_query;
     renderer->needs = turner_needs_of(scene);
     renderer->width = scene->settings.width;
     renderer->height = scene->settings.height;
     renderer->spp = scene->settings.spp;
     renderer->tile = options->tile;
-    enum turner_result result = create(renderer, scene, options, statistics);
+    enum turner_result result = create(renderer, kernel, scene, options, statistics);
     if (result != TURNER_OK)
         turner_renderer_destroy(renderer);
     return result;

@@ -6,6 +6,17 @@
 #include "gpu/program.h"
 #include "render/device_scene.h"
 
+/* The shaders compiled to SPIR-V, for any scene. */
+struct turner_kernel {
+    bool ray_query;
+    struct turner_spirv spirv;
+};
+
+/* TURNER_BAD_INPUT with file, line and text for a broken shader. */
+enum turner_result turner_kernel_create(struct turner_kernel *kernel, bool ray_query,
+                                        const struct turner_render_options *options);
+void turner_kernel_destroy(struct turner_kernel *kernel);
+
 struct turner_renderer {
     struct turner_gpu *gpu; /* not owned */
     bool ray_query;
@@ -24,8 +35,9 @@ struct turner_renderer {
 enum turner_result turner_choose_traversal(bool *ray_query, const struct turner_gpu_info *info,
                                            enum turner_traversal wanted);
 
-/* Builds, compiles and uploads; fills the times and sizes of `statistics`. */
+/* Builds, specialises and uploads; fills sizes and times of `statistics`. */
 enum turner_result turner_renderer_create(struct turner_renderer *renderer, struct turner_gpu *gpu,
+                                          const struct turner_kernel *kernel,
                                           const struct turner_scene *scene,
                                           const struct turner_render_options *options,
                                           struct turner_statistics *statistics);
