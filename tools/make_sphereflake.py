@@ -5,7 +5,7 @@ The spheres are those of the "balls" scene of Eric Haines's Standard Procedural 
 has 7,381 of them, depth 5 66,430). Two kinds of scene come out:
 
   --format nff   the database's own scene: floor, camera and lights as published, z up
-  --format json  a composed picture: gold in the evening, y up, made of instances of one twig
+  --format json  a composed picture: gold and coral in the evening, y up, made of instances of one twig
 
 Example: tools/make_sphereflake.py --depth 5 --format json -o scenes/sphereflake.json
 """
@@ -76,7 +76,7 @@ def write_nff(out, spheres):
         out.write(f"s {x:.6g} {y:.6g} {z:.6g} {radius:.6g}\n")
 
 
-TWIG = 2  # generations of the group that is put many times
+TWIG = 3  # generations of the group that is put many times
 
 
 def branches(depth, frame, center, radius):
@@ -98,20 +98,24 @@ def write_json(out, depth):
     scene = {
         "$schema": "schema.json",
         "version": 1,
-        "description": f"A sphereflake of {count:,} gold spheres: each carries nine of a third of "
+        "description": f"A sphereflake of {count:,} spheres: each carries nine of a third of "
                        f"its size, {depth} times over. Only the last twigs are in the file; their "
                        "instances make the rest. Written by tools/make_sphereflake.py.",
         "settings": {"size": [640, 480], "spp": 4, "depth": 3, "cutoff": 0.02},
         "camera": {"from": [1.9, 1.25, 2.9], "at": [0.02, 0.46, 0], "vfov": 30},
-        "ambient": [0.10, 0.11, 0.14],
+        "ambient": [0.20, 0.21, 0.24],
         "background": {"type": "gradient", "bottom": [1.5, 0.95, 0.60], "top": [0.04, 0.20, 0.62]},
         "materials": {
-            "gold": {"metal": "gold", "k_d": [0.22, 0.13, 0.035], "k_a": [0.1, 0.07, 0.02],
-                     "k_s": 0.05, "k_r": 0.9, "exponent": 120},
+            "gold": {"metal": "gold", "k_d": [0.10, 0.06, 0.02], "k_a": [0.1, 0.07, 0.02],
+                     "k_s": 0.05, "k_r": 0.95, "exponent": 120},
+            "twig 0": {"k_d": [0.30, 0.02, 0.05], "k_a": [0.30, 0.02, 0.05]},
+            "twig 1": {"k_d": [0.72, 0.10, 0.05], "k_a": [0.72, 0.10, 0.05]},
+            "twig 2": {"k_d": [0.95, 0.50, 0.20], "k_a": [0.95, 0.50, 0.20]},
+            "twig 3": {"k_d": [0.95, 0.80, 0.55], "k_a": [0.95, 0.80, 0.55]},
             "floor": {"k_d": [0.03, 0.045, 0.07], "k_a": [0.03, 0.04, 0.06], "k_r": 0.10},
         },
         "lights": [
-            {"type": "directional", "direction": [-0.5, -1, -0.35], "irradiance": [5, 4.2, 3.2]},
+            {"type": "directional", "direction": [-0.5, -1, -0.35], "irradiance": [4, 3.5, 2.9]},
             {"type": "point", "position": [-3, 4, 3], "intensity": [6, 6.5, 8]},
         ],
     }
@@ -119,12 +123,12 @@ def write_json(out, depth):
     spheres, instances = [], []
     for left, frame, center, radius in branches(depth, towards((0, 0, 1)), (0, 0, 0.5), 0.5):
         if left > TWIG:
-            spheres.append(sphere(up(center), radius))
+            spheres.append(sphere(up(center), radius, "gold"))
             continue
         rows = [[radius * v for v in up(row)] + [c] for row, c in zip(frame, center)]
         matrix = [round(v, 6) for row in up(rows) for v in row]
         instances.append({"group": "twig", "transform": {"matrix": matrix}})
-    twig = [sphere(up(center), radius)
+    twig = [sphere(up(center), radius, f"twig {round(-math.log(radius, 3))}")
             for center, radius in flake(min(depth, TWIG), (0, 0, 0), (0, 0, 1), 1)]
     floor = {"type": "plane", "point": [0, 0, 0], "normal": [0, 1, 0], "material": "floor"}
 
@@ -137,9 +141,9 @@ def write_json(out, depth):
               + ',\n  "instances": ' + listed(instances, "    ") + "\n}\n")
 
 
-def sphere(center, radius):
+def sphere(center, radius, material):
     return {"type": "sphere", "center": [round(c, 6) for c in center],
-            "radius": round(radius, 6), "material": "gold"}
+            "radius": round(radius, 6), "material": material}
 
 
 def main():
