@@ -108,8 +108,9 @@ enum turner_result turner_render(struct turner_image *image, const struct turner
     statistics->seconds_parse = seconds_parse; /* whoever loaded the scene knows it */
 
     memset(image, 0, sizeof *image);
-    TURNER_TRY(turner_image_create(image, scene->settings.width, scene->settings.height));
     bool reference = options->device && strcmp(options->device, "reference") == 0;
+    if (!reference) /* that makes its own */
+        TURNER_TRY(turner_image_create(image, scene->settings.width, scene->settings.height));
     TURNER_TRY(reference ? draw_by_reference(image, scene, options, statistics)
                          : draw_on_device(image, scene, options, statistics));
     inspect(image, statistics);
