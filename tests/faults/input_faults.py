@@ -35,7 +35,8 @@ json_fault("unknown_key", scene('@"primitivs": []'),
            'unknown key "primitivs", did you mean "primitives"? (at $.primitivs)')
 json_fault("unknown_key_inside", scene(MATERIAL + '"primitives": [{' + SPHERE +
                                        '"radius": 1, "material": "grey", @"colour": 1}]'),
-           'unknown key "colour" (at $.primitives[0].colour)')
+           'unknown key "colour"; known for a sphere: "type", "material", "center", "radius" '
+           "(at $.primitives[0].colour)")
 json_fault("doubled_key", scene('"ambient": 1,\n  @"ambient": 1'),
            'the key "ambient" is here twice (at $.ambient)')
 json_fault("missing_key", '@{"version": 1}', 'missing key "camera" of a scene (at $)')
@@ -54,7 +55,7 @@ json_fault("not_finite", scene('"ambient": @1e999'),
 json_fault("nan", scene('"ambient": @NaN'),
            '"NaN" is no JSON value; text wants double quotes')
 json_fault("wrong_choice", scene('"settings": {"shading": @"fong"}'),
-           'expected "phong" or "energy_conserving", but here is "fong"; did you mean "phong"? '
+           'expected "phong" or "energy_conserving", but here is "fong" '
            "(at $.settings.shading)")
 json_fault("unknown_name", scene(MATERIAL + '"primitives": [{' + SPHERE +
                                  '"radius": 1, "material": @"gray"}]'),
@@ -123,7 +124,7 @@ limit_fault("lights", 4096, "but 4096 are the limit", lambda n: scene(
     '"lights": [' + many('{"type": "point", "position": [0, #, 0], "intensity": 1}', n) + "]"))
 limit_fault("materials", 1 << 20, "but 1048576 are the limit", lambda n: scene(
     '"materials": {' + many('"#": {}', n) + "}"))
-limit_fault("names", 255, "255 bytes", lambda n: scene(
+limit_fault("names", 255, "this name has 256 bytes, but 255 are the limit", lambda n: scene(
     '"materials": {"' + "x" * n + '": {}}'))
 limit_fault("depth_of_branches", 64, "depth 65 is too much where a material both reflects and "
             "transmits", lambda n: scene(
@@ -210,7 +211,7 @@ def mesh_named_in_scene_is_wrong(place):
     """The message names both the mesh file and the place in the scene that asked for it."""
     place.write("nan.ply", PLY % ("nan", 2))
     place.write("wrong.json", scene('"meshes": {"bunny": {"file": "nan.ply"}}'))
-    place.refuses(BAD_INPUT, ["wrong.json:4:31: nan.ply: ", "is not a finite number",
+    place.refuses(BAD_INPUT, ["wrong.json:4:32: nan.ply: ", "is not a finite number",
                               "(at $.meshes.bunny.file)"],
                   "render", "wrong.json", "-o", "picture.png")
 
