@@ -41,7 +41,7 @@ vec3 local_illumination(turner_gpu_material material, vec3 N, vec3 V, vec3 L)
         vec3 R = 2.0 * dot(N, L) * N - L;
         float cos_highlight = min(dot(R, V), 1.0);
         if (cos_highlight > 0.0) {
-            float highlight = pow(cos_highlight, material.exponent);
+            float highlight = power(cos_highlight, material.exponent);
             f += material.k_s * (conserving ? highlight * cos_light * (material.exponent + 2.0) /
                                                   (2.0 * PI)
                                             : highlight);

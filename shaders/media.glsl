@@ -82,5 +82,7 @@ vec3 media_transmittance(uint64_t list, float distance)
         return vec3(1.0);
     vec3 absorption = medium_array(scene.media).at[medium - 1u].absorption;
     // a channel without absorption stays 1 over any distance, also an infinite one
-    return mix(exp(-absorption * distance), vec3(1.0), equal(absorption, vec3(0.0)));
+    return vec3(absorption.r == 0.0 ? 1.0 : exponential(-absorption.r * distance),
+                absorption.g == 0.0 ? 1.0 : exponential(-absorption.g * distance),
+                absorption.b == 0.0 ? 1.0 : exponential(-absorption.b * distance));
 }

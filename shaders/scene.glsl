@@ -42,6 +42,7 @@ struct ray_t {
     vec3 origin;
     vec3 direction;
     float t_max; // exclusive; rays start at 0, exclusive
+    float start; // how far in front of the surface it left the origin lies, along the ray
 };
 
 // What a ray met. `id` orders hits at equal t, see shared.h.

@@ -156,12 +156,13 @@ surface_t surface_of(ray_t ray, hit_t hit)
 // bound of the error of the point, taken in the space where that was computed. No scene-scale
 // epsilon. The bound is pbrt's ("Managing Rounding Error") for points put back onto their surfaces.
 // The start moves along the ray itself, which costs the picture nothing, as far as that goes: a
-// grazing ray would have to go too far and moves along the normal for the rest.
-ray_t spawn_ray(surface_t surface, vec3 direction, float t_max)
+// grazing ray would have to go too far and moves along the normal for the rest. `distance` is from
+// the surface.
+ray_t spawn_ray(surface_t surface, vec3 direction, float distance)
 {
     float c = dot(direction, surface.ng);
     float side = c > 0.0 ? surface.clearance : -surface.clearance;
     float along = min(surface.clearance / abs(c), 16.0 * surface.clearance);
     vec3 origin = surface.point + (along * direction + (side - along * c) * surface.ng);
-    return ray_t(origin, direction, t_max);
+    return ray_t(origin, direction, distance - along, along);
 }

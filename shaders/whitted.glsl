@@ -1,10 +1,10 @@
 // Whitted's recursion without recursion: one loop in which every turn traces one ray, be it a
 // camera, reflected, refracted or shadow ray. A hit is shaded in as many turns as it has lights to
 // ask; the rays it sends on wait meanwhile, the first beside, the second on a stack.
+#include "elementary.glsl"
 #include "media.glsl"
 #include "trace.glsl"
 #include "texture.glsl"
-#include "angle.glsl"
 #include "surface.glsl"
 #include "material.glsl"
 #include "fresnel.glsl"
@@ -147,7 +147,7 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
         }
         vec3 travelled = vec3(1.0);
         if (NEEDS_ANY(TURNER_NEEDS_MEDIA))
-            travelled = media_transmittance(crossing.before, search.hit.t);
+            travelled = media_transmittance(crossing.before, ray.start + search.hit.t);
         if (met && (shadow || !real) && ++crossings > scene.max_crossings) {
             counts.low[TURNER_COUNT_UNFINISHED]++;
             break;

@@ -1,0 +1,49 @@
+/* The checks on the best Vulkan device: main_device bvh|ray_query [FILTER]. */
+#include <stdio.h>
+#include <string.h>
+
+#include "analytic/analytic.h"
+#include "render/renderer.h"
+
+static struct turner_gpu gpu;
+static struct turner_kernel kernel;
+
+static enum turner_result render(struct turner_image *image, const struct turner_scene *scene)
+{
+    static const struct turner_render_options options;
+    struct turner_statistics statistics = {0};
+    struct turner_renderer renderer;
+    *image = (struct turner_image){0};
+    TURNER_TRY(turner_renderer_create(&renderer, &gpu, &kernel, scene, &options, &statistics));
+    enum turner_result result =
+        turner_image_create(image, scene->settings.width, scene->settings.height);
+    if (result == TURNER_OK)
+        result = turner_renderer_draw(&renderer, image, &options, &statistics);
+    turner_renderer_destroy(&renderer);
+    return result;
+}
+
+int main(int argc, char **argv)
+{
+    static const struct turner_render_options options;
+    bool ray_query = argc > 1 && strcmp(argv[1], "ray_query") == 0;
+    if (turner_gpu_create(&gpu, NULL, false) != TURNER_OK ||
+        turner_choose_traversal(&ray_query, &gpu.info, ray_query ? TURNER_TRAVERSAL_RAY_QUERY
+                                                                 : TURNER_TRAVERSAL_BVH) !=
+            TURNER_OK) {
+        printf("skipped: %s\n", turner_message());
+        turner_gpu_destroy(&gpu);
+        return 77;
+    }
+    int failures = 0;
+    if (turner_kernel_create(&kernel, ray_query, &options) != TURNER_OK) {
+        printf("%s\n", turner_message());
+        failures++;
+    } else {
+        failures = analytic_run(render, ANALYTIC_SINGLE, argc > 2 ? argv[2] : NULL);
+    }
+    failures += (int)turner_gpu_validation_count();
+    turner_kernel_destroy(&kernel);
+    turner_gpu_destroy(&gpu);
+    return failures ? 1 : 0;
+}
