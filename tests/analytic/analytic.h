@@ -96,6 +96,11 @@ void analytic_add_light(struct turner_scene *scene, struct turner_light light);
 void analytic_add_facet(struct turner_scene *scene, int x, double angle, bool behind,
                         uint32_t material);
 
+/* For a picture of one row: a small triangle around the ray of pixel x, four units away, with that
+ * unit normal. */
+void analytic_add_tile(struct turner_scene *scene, int x, struct turner_vec3 normal,
+                       uint32_t material);
+
 /* A wall that shows where it was met: a plane whose radiance is ((u + reach)/2reach,
  * (v + reach)/2reach, 0) at |u|, |v| < reach metres from `point` along `tangent` and
  * normal × tangent. */

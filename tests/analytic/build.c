@@ -168,6 +168,23 @@ void analytic_add_facet(struct turner_scene *scene, int x, double angle, bool be
                 3, material);
 }
 
+void analytic_add_tile(struct turner_scene *scene, int x, struct turner_vec3 normal,
+                       uint32_t material)
+{
+    double spacing = 2 * tan(scene->camera.vfov / 2) / scene->settings.height;
+    struct turner_vec3 center = turner_vec3_add(
+        scene->camera.from, turner_vec3_scale(analytic_direction(scene, x, 0), 4));
+    struct turner_vec3 e1 = turner_vec3_scale(turner_vec3_perpendicular(normal), 1.5 * spacing);
+    struct turner_vec3 e2 = turner_vec3_cross(normal, e1);
+    struct turner_vec3 corners[3];
+    for (int i = 0; i < 3; i++) {
+        corners[i] = turner_vec3_add(
+            center, turner_vec3_add(turner_vec3_scale(e1, cos(i * 2 * PI / 3)),
+                                    turner_vec3_scale(e2, sin(i * 2 * PI / 3))));
+    }
+    add_polygon(scene, corners, 3, material);
+}
+
 void analytic_add_light(struct turner_scene *scene, struct turner_light light)
 {
     *TURNER_PUSH(scene->lights, scene->light_count, scene->light_capacity) = light;
