@@ -1,0 +1,27 @@
+# Every golden equals itself, and every pair of different ones fails `turner compare`:
+# cmake -DTURNER= -DFOLDER= -DTHRESHOLD= -DPIXELS= -P pairs.cmake
+file(GLOB goldens ${FOLDER}/*.png)
+list(LENGTH goldens count)
+if(count LESS 2)
+    message(FATAL_ERROR "${FOLDER}: ${count} goldens, nothing to tell apart")
+endif()
+set(pairs 0)
+foreach(a IN LISTS goldens)
+    foreach(b IN LISTS goldens)
+        if(a STREQUAL b)
+            set(expected 0)
+        elseif(a STRLESS b)
+            set(expected 1)
+            math(EXPR pairs "${pairs} + 1")
+        else()
+            continue()
+        endif()
+        execute_process(COMMAND ${TURNER} compare ${a} ${b} -t ${THRESHOLD} -n ${PIXELS}
+                        RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE reason)
+        if(NOT status EQUAL expected)
+            message(SEND_ERROR "turner compare ${a} ${b}: status ${status} instead of "
+                               "${expected}; ${reason}")
+        endif()
+    endforeach()
+endforeach()
+message(STATUS "${count} goldens, ${pairs} pairs told apart")
