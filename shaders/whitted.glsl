@@ -101,10 +101,23 @@ bool follow(vec3 weight, uint depth, bool always, inout float pruned)
     return w > 0.0 || always;
 }
 
+// A sum of many terms, a thousand lights' say, with what rounding takes from it (Kahan, 1965).
+struct sum_t {
+    vec3 value, lost;
+};
+
+void add(inout sum_t sum, vec3 term)
+{
+    precise vec3 mended = term - sum.lost;
+    precise vec3 value = sum.value + mended;
+    precise vec3 lost = (value - sum.value) - mended;
+    sum = sum_t(value, lost);
+}
+
 // Radiance along the camera ray, and the sum of the weights that were cut in the fourth component.
 vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
 {
-    vec3 radiance = vec3(0.0);
+    sum_t radiance = sum_t(vec3(0.0), vec3(0.0));
     float pruned = 0.0;
     path_t path = path_t(camera, vec3(1.0), 0u, scene.inside);
     path_t next;
@@ -164,7 +177,7 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
                 shadow_ray = spawn_ray(surface, ray.direction, ray.t_max - search.hit.t);
                 continue;
             } else {
-                radiance += light;
+                add(radiance, light);
                 shadow = false;
             }
         } else {
@@ -175,7 +188,7 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
                 continue;
             }
             if (!met)
-                radiance += path.weight * background(ray.direction);
+                add(radiance, path.weight * background(ray.direction));
             if (met) {
                 // ---- shade: emission, ambient, and what is sent on; the lights come below ----
                 if (path.depth == 0u)
@@ -184,7 +197,7 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
                 vec3 V = -ray.direction;
                 vec3 ng = dot(surface.ng, V) < 0.0 ? -surface.ng : surface.ng;
                 vec3 N = dot(surface.ns, ng) < 0.0 ? -surface.ns : surface.ns;
-                radiance += path.weight * (material.k_e + material.k_a * scene.ambient);
+                add(radiance, path.weight * (material.k_e + material.k_a * scene.ambient));
                 shading = shading_t(surface, material, N, V, path.weight, crossing.before, 0u);
                 if (material.k_d == vec3(0.0) && material.k_s == vec3(0.0))
                     shading.light = scene.light_count;
@@ -245,10 +258,10 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
         } else if (NEEDS_ANY(TURNER_NEEDS_BRANCHING) && height > 0u) {
             path = stack[--height];
         } else {
-            return vec4(radiance, pruned);
+            return vec4(radiance.value, pruned);
         }
         counts.largest_depth = max(counts.largest_depth, path.depth);
     }
     counts.low[TURNER_COUNT_UNFINISHED]++;
-    return vec4(radiance, pruned);
+    return vec4(radiance.value, pruned);
 }
