@@ -263,3 +263,44 @@ void check_tinted_shadow(struct analytic *a)
         turner_scene_destroy(scene);
     }
 }
+
+/* A shadow ray starts in the medium on the viewer's side: on the bottom of a lake, seen from in the
+ * water, the light of a lamp in the water is absorbed all the way and the sun's as far as the
+ * surface; on a slab of glass with a coat of paint, seen from outside, none is. */
+void check_shadow_medium(struct analytic *a)
+{
+    struct turner_vec3 sigma = V3(0, 0.5, 2);
+    for (int kind = 0; kind < 3; kind++) {
+        struct turner_scene *scene = floor_scene(0.04);
+        struct turner_material paint = analytic_clear(analytic_add_medium(scene, 1.333, sigma, 0));
+        if (kind < 2) {
+            scene->camera.inside[scene->camera.inside_count++] = 0;
+            analytic_look(scene, V3(0, 0, 0.9), V3(0, 0, 0), V3(0, 1, 0));
+            analytic_add_plane(scene, V3(0, 0, 1), V3(0, 0, 1), V3(1, 0, 0),
+                               analytic_add_material(scene, paint));
+        } else {
+            paint.k_d = GREY(1);
+            scene->planes[0].material = analytic_add_material(scene, paint);
+        }
+        if (kind == 0)
+            analytic_add_light(scene, point_light(V3(0.1, 0.3, 0.8), 1));
+        else
+            analytic_add_light(scene, sun(V3(0.3, 0.2, -1), GREY(1)));
+        struct turner_image image;
+        analytic_render(a, &image, scene);
+        for (int i = 0; image.rgba && i < 3 * SIZE * SIZE; i++) {
+            struct turner_vec3 p = floor_point(scene, i / 3), way = V3(-0.3, -0.2, 1);
+            double s = i % 3 == 0 ? sigma.x : i % 3 == 1 ? sigma.y : sigma.z;
+            if (kind == 0)
+                way = turner_vec3_sub(scene->lights[0].position, p);
+            double d = turner_vec3_length(way), cosine = way.z / d;
+            double bare = cosine / PI / (kind == 0 ? d * d : 1);
+            double wet = kind == 0 ? d : kind == 1 ? 1 / cosine : 0; /* of the way */
+            double seen = kind < 2 ? turner_vec3_length(turner_vec3_sub(p, scene->camera.from)) : 0;
+            analytic_expect(a, (double)image.rgba[4 * (i / 3) + i % 3],
+                            bare * exp(-s * (wet + seen)), 2, "kind %d, pixel %d", kind, i / 3);
+        }
+        turner_image_destroy(&image);
+        turner_scene_destroy(scene);
+    }
+}

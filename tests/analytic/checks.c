@@ -50,6 +50,7 @@ const struct analytic_check analytic_checks[] = {
     {"flux", check_flux, PICTURE, FLOAT_PATH},
     {"shadow", check_shadow, PICTURE, FLOAT_PATH},
     {"tinted shadow", check_tinted_shadow, PICTURE, FLOAT_PATH},
+    {"shadow in a medium", check_shadow_medium, PICTURE, FLOAT_PATH},
     {"phong, both forms", check_phong, PICTURE, FLOAT_PATH},
     {"energy", check_energy, PICTURE, FLOAT_PATH},
     {"phong's gain", check_phong_gain, PICTURE, FLOAT_PATH},

@@ -53,5 +53,6 @@ void check_checker(struct analytic *a);
 void check_samples(struct analytic *a);
 void check_bent_normals(struct analytic *a);
 void check_absorbing_bounces(struct analytic *a);
+void check_shadow_medium(struct analytic *a);
 
 #endif
