@@ -1,0 +1,178 @@
+/* What a scene needs of the kernel, and that what it does not need is not in it. No device. */
+#include <sys/stat.h>
+
+#include "render_test.h"
+
+#include "../shaders/shared.h"
+
+#define LAMP "\"lights\": [{\"type\": \"point\", \"position\": [0, 4, 4], \"intensity\": 9}]"
+#define DIFFUSE "\"materials\": {\"m\": {\"k_d\": 0.5}}"
+#define SPHERE "{\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 1, \"material\": \"m\"}"
+
+static struct turner_needs needs_of(const char *rest)
+{
+    char text[4096];
+    snprintf(text, sizeof text, "%s, %s}", SCENE_HEAD, rest);
+    struct turner_scene *scene = scene_of(text);
+    struct turner_needs needs = turner_needs_of(scene);
+    turner_scene_destroy(scene);
+    return needs;
+}
+
+static void bits_of_scenes(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *rest;
+        uint32_t bits;
+    } cases[] = {
+        {"\"background\": 1", TURNER_NEEDS_CONSERVING},
+        {"\"settings\": {\"shading\": \"phong\"}", TURNER_NEEDS_PHONG},
+        {DIFFUSE ", " LAMP ", \"primitives\": [" SPHERE "]",
+         TURNER_NEEDS_CONSERVING | TURNER_NEEDS_SPHERES | TURNER_NEEDS_POINT},
+        {"\"materials\": {\"m\": {\"k_r\": 0.5}}, \"primitives\": [" SPHERE "]",
+         TURNER_NEEDS_CONSERVING | TURNER_NEEDS_SPHERES | TURNER_NEEDS_REFLECTION},
+        {"\"materials\": {\"m\": {\"k_r\": 0.5, \"fresnel\": \"schlick\"}}, \"primitives\": ["
+         SPHERE "]",
+         TURNER_NEEDS_CONSERVING | TURNER_NEEDS_SPHERES | TURNER_NEEDS_REFLECTION |
+             TURNER_NEEDS_SCHLICK},
+        {"\"materials\": {\"m\": {\"k_r\": 1, \"metal\": \"gold\"}}, \"primitives\": [" SPHERE "]",
+         TURNER_NEEDS_CONSERVING | TURNER_NEEDS_SPHERES | TURNER_NEEDS_REFLECTION |
+             TURNER_NEEDS_CONDUCTOR},
+        {"\"settings\": {\"shadows\": \"opaque\"}, \"materials\": {\"m\": {\"k_r\": 1, \"k_t\": 1,"
+         " \"index\": 1.5, \"absorption\": 2}}, \"primitives\": [" SPHERE "]",
+         TURNER_NEEDS_CONSERVING | TURNER_NEEDS_SPHERES | TURNER_NEEDS_REFLECTION |
+             TURNER_NEEDS_TRANSMISSION | TURNER_NEEDS_BRANCHING | TURNER_NEEDS_EXACT |
+             TURNER_NEEDS_MEDIA | TURNER_NEEDS_ABSORPTION},
+        {"\"materials\": {\"m\": {\"k_t\": 1, \"fresnel\": \"none\", \"index\": 1.5}}, "
+         "\"primitives\": [" SPHERE "]",
+         TURNER_NEEDS_CONSERVING | TURNER_NEEDS_SPHERES | TURNER_NEEDS_TRANSMISSION |
+             TURNER_NEEDS_MEDIA | TURNER_NEEDS_TINTED},
+        {"\"materials\": {\"m\": {\"k_d\": 1, \"k_s\": 1, \"pattern\": {\"type\": \"checker\", "
+         "\"colors\": [0, 1], \"scale\": 1}}}, \"groups\": {\"g\": [{\"type\": \"box\", \"min\": "
+         "[0, 0, 0], \"max\": [1, 1, 1], \"material\": \"m\"}]}, \"instances\": [{\"group\": \"g\"}"
+         "], \"primitives\": [{\"type\": \"plane\", \"point\": [0, -1, 0], \"normal\": [0, 1, 0], "
+         "\"material\": \"m\"}, {\"type\": \"cone\", \"base\": [0, 0, 0], \"apex\": [0, 1, 0], "
+         "\"base_radius\": 1, \"material\": \"m\"}], \"background\": {\"type\": \"gradient\", "
+         "\"bottom\": 0, \"top\": 1}, \"lights\": [{\"type\": \"directional\", \"direction\": "
+         "[0, -1, 0], \"irradiance\": 1}, {\"type\": \"spot\", \"position\": [0, 3, 0], \"at\": "
+         "[0, 0, 0], \"inner\": 5, \"outer\": 9, \"intensity\": 1}]",
+         TURNER_NEEDS_CONSERVING | TURNER_NEEDS_CONES | TURNER_NEEDS_TRIANGLES |
+             TURNER_NEEDS_PLANES | TURNER_NEEDS_INSTANCES | TURNER_NEEDS_CHECKER |
+             TURNER_NEEDS_DIRECTIONAL | TURNER_NEEDS_POINT | TURNER_NEEDS_SPOT |
+             TURNER_NEEDS_SPECULAR | TURNER_NEEDS_GRADIENT},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        uint32_t bits = needs_of(cases[i].rest).bits;
+        if (bits != cases[i].bits)
+            fail_msg("%s: needs %#x instead of %#x", cases[i].rest, bits, cases[i].bits);
+    }
+}
+
+static void every_bit_has_a_name(void **state)
+{
+    (void)state;
+    for (uint32_t bit = 1; bit & TURNER_NEEDS_ALL; bit <<= 1) {
+        assert_string_not_equal(turner_needs_name(bit), "unknown");
+        for (uint32_t other = 1; other < bit; other <<= 1)
+            assert_string_not_equal(turner_needs_name(bit), turner_needs_name(other));
+    }
+}
+
+/* Loops are bounded by what the scene can cause at most. */
+static void bounds_of_loops(void **state)
+{
+    (void)state;
+    struct turner_needs needs = needs_of(DIFFUSE ", " LAMP ", \"settings\": {\"depth\": 0}, "
+                                                 "\"primitives\": [" SPHERE "]");
+    assert_int_equal(needs.stack, 1);
+    assert_int_equal(needs.max_crossings, 0);
+    assert_int_equal(needs.max_steps, 2); /* the camera ray and one shadow ray */
+
+    needs = needs_of("\"materials\": {\"m\": {\"k_r\": 0.5}}, \"settings\": {\"depth\": 7}, "
+                     "\"primitives\": [" SPHERE "]");
+    assert_int_equal(needs.stack, 1); /* each ray is followed by one at most */
+    assert_int_equal(needs.max_steps, 8);
+
+    needs = needs_of("\"materials\": {\"m\": {\"k_r\": 1, \"k_t\": 1, \"index\": 1.5}}, "
+                     "\"settings\": {\"depth\": 7}, \"primitives\": [" SPHERE "]");
+    assert_int_equal(needs.stack, 7);
+    assert_int_equal(needs.max_crossings, 2); /* in and out again */
+    assert_int_equal(needs.max_steps, 255 * 3);
+
+    needs = needs_of("\"materials\": {\"m\": {\"k_r\": 1, \"k_t\": 1, \"index\": 1.5}}, "
+                     "\"settings\": {\"depth\": 64}, \"primitives\": [" SPHERE "]");
+    assert_int_equal(needs.stack, 64);
+    assert_int_equal(needs.max_steps, 2147483647);
+}
+
+/* Size in bytes of the kernel as a driver sees it, once it knows the constants. */
+static long specialised_size(const char *folder, const struct turner_kernel *kernel, uint32_t bits,
+                             uint32_t stack)
+{
+    char in[512], out[512], command[2048];
+    snprintf(in, sizeof in, "%s/kernel.spv", folder);
+    snprintf(out, sizeof out, "%s/special.spv", folder);
+    FILE *file = fopen(in, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(kernel->spirv.words, 4, kernel->spirv.count, file),
+                     kernel->spirv.count);
+    fclose(file);
+    snprintf(command, sizeof command,
+             "'%s' --set-spec-const-default-value '%d:%u %d:%u %d:16' --freeze-spec-const "
+             "--fold-spec-const-op-composite --ccp --eliminate-dead-branches -O '%s' -o '%s'",
+             TURNER_SPIRV_OPT, TURNER_CONSTANT_NEEDS, bits, TURNER_CONSTANT_STACK, stack,
+             TURNER_CONSTANT_BVH_STACK, in, out);
+    assert_int_equal(system(command), 0);
+    struct stat status;
+    assert_int_equal(stat(out, &status), 0);
+    return (long)status.st_size;
+}
+
+/* A diffuse scene's kernel is a good deal smaller than one with everything, and each step between
+ * them is smaller than the next. */
+static void what_is_not_needed_is_not_there(void **state)
+{
+    (void)state;
+    if (!*TURNER_SPIRV_OPT) {
+        print_message("skipped: no spirv-opt here to specialise with (package spirv-tools)\n");
+        skip();
+    }
+    char folder[] = "/tmp/turner-needs-XXXXXX", command[64];
+    assert_non_null(mkdtemp(folder));
+    static const struct turner_render_options defaults;
+    struct turner_needs diffuse =
+        needs_of(DIFFUSE ", " LAMP ", \"primitives\": [" SPHERE "]");
+    struct turner_needs mirror = needs_of("\"materials\": {\"m\": {\"k_d\": 0.5, \"k_r\": 0.5}}, "
+                                          LAMP ", \"primitives\": [" SPHERE "]");
+    struct turner_needs glass = needs_of("\"materials\": {\"m\": {\"k_d\": 0.5, \"k_r\": 1, \"k_t\""
+                                         ": 1, \"index\": 1.5}}, " LAMP ", \"primitives\": ["
+                                         SPHERE "]");
+    for (int traversal = 0; traversal < 2; traversal++) {
+        struct turner_kernel kernel;
+        assert_ok(turner_kernel_create(&kernel, traversal == RAY_QUERY, &defaults));
+        long sizes[] = {specialised_size(folder, &kernel, diffuse.bits, diffuse.stack),
+                        specialised_size(folder, &kernel, mirror.bits, mirror.stack),
+                        specialised_size(folder, &kernel, glass.bits, glass.stack),
+                        specialised_size(folder, &kernel, TURNER_NEEDS_ALL, glass.stack)};
+        printf("%s: SPIR-V of %zu bytes; specialised: diffuse %ld, mirror %ld, glass %ld, all "
+               "%ld\n", traversal ? "ray_query" : "bvh", kernel.spirv.count * 4, sizes[0],
+               sizes[1], sizes[2], sizes[3]);
+        assert_true(sizes[0] < sizes[1] && sizes[1] < sizes[2] && sizes[2] < sizes[3]);
+        assert_true(2 * sizes[0] < sizes[3]);
+        turner_kernel_destroy(&kernel);
+    }
+    snprintf(command, sizeof command, "rm -rf '%s'", folder);
+    assert_int_equal(system(command), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bits_of_scenes),
+        cmocka_unit_test(every_bit_has_a_name),
+        cmocka_unit_test(bounds_of_loops),
+        cmocka_unit_test(what_is_not_needed_is_not_there),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,37 @@
+# Whole pictures: what is compiled in, that nothing but the scene decides them, counts, edge cases.
+find_program(TURNER_SPIRV_OPT spirv-opt DOC "Specialises kernels for a test of their size")
+if(NOT TURNER_SPIRV_OPT)
+    set(TURNER_SPIRV_OPT "")
+endif()
+
+# turner_render_test(NAME): a program with all layers.
+function(turner_render_test name)
+    add_executable(test_${name} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/test_${name}.c
+        ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/render_test.c
+        ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../truth/explain.c)
+    target_link_libraries(test_${name} PRIVATE turner_flags PkgConfig::CMOCKA ${turner_libraries})
+    foreach(layer IN ITEMS base image scene reference bvh gpu render)
+        target_link_libraries(test_${name} PRIVATE turner_${layer})
+    endforeach()
+    target_compile_definitions(test_${name} PRIVATE TURNER_SPIRV_OPT="${TURNER_SPIRV_OPT}"
+        TURNER_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    set_target_properties(test_${name} PROPERTIES LINKER_LANGUAGE CXX)
+endfunction()
+
+# turner_device_test(TEST PROGRAM argument…): with validation, and a shader cache of its own.
+function(turner_device_test test program)
+    add_test(NAME ${test} COMMAND ${program} ${ARGN})
+    set_tests_properties(${test} PROPERTIES SKIP_RETURN_CODE 77 LABELS device TIMEOUT 600
+        ENVIRONMENT "TURNER_VALIDATION=1;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/${test}")
+endfunction()
+
+turner_render_test(needs)
+add_test(NAME needs COMMAND test_needs)
+
+turner_render_test(switches)
+file(GLOB switch_scenes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenes/*.json)
+list(FILTER switch_scenes EXCLUDE REGEX "/schema\\.json$")
+foreach(scene IN LISTS switch_scenes)
+    get_filename_component(name ${scene} NAME_WE)
+    turner_device_test(switches_${name} test_switches ${scene})
+endforeach()
