@@ -160,7 +160,7 @@ static enum turner_result read_mesh(struct turner_mesh *mesh, struct json_reader
         result = read_inline(mesh, reader, object, make_smooth);
     } else {
         TURNER_TRY(refuse_inline_keys(reader, object, "file"));
-        char *path;
+        char *path = NULL;
         TURNER_TRY(json_read_file_name(&path, reader, file));
         result = turner_mesh_read_file(mesh, path, smooth ? make_smooth : -1);
         free(path);

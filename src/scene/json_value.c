@@ -222,7 +222,7 @@ enum turner_result json_read_numbers(double *out, size_t count, const struct jso
     snprintf(expected, sizeof expected, "a list of %zu numbers", count);
     if (!cJSON_IsArray(value->item))
         return fail_type(reader, value, expected);
-    size_t found;
+    size_t found = 0;
     TURNER_TRY(json_expect_list(&found, reader, value, SIZE_MAX));
     if (found != count)
         return json_fail(reader, value, "expected %s, but here are %zu", expected, found);

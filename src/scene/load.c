@@ -172,7 +172,7 @@ enum turner_result turner_scene_load(struct turner_scene **out, const char *path
     *out = NULL;
     enum turner_result result;
     char *text = NULL;
-    size_t size;
+    size_t size = 0;
     int file = -1;
     TURNER_TRY_DONE(open_file(&file, &size, path));
     if (is_mesh(path)) {

@@ -157,7 +157,7 @@ static void texts_are_in_the_file_and_the_date_is_not(void **state)
     for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
         struct turner_image image = sample();
         assert_int_equal(turner_image_write(&image, in_folder(names[n]), &plain), TURNER_OK);
-        size_t size;
+        size_t size = 0;
         char *bytes = read_bytes(in_folder(names[n]), &size);
         assert_non_null(bytes);
         for (size_t i = 0; i < plain.text_count; i++) {
