@@ -28,7 +28,11 @@ foreach(scene IN LISTS golden_scenes)
 endforeach()
 
 # The comparison is worth something: it tells any two goldens apart.
-add_test(NAME golden_pairs COMMAND ${CMAKE_COMMAND} -DTURNER=$<TARGET_FILE:turner>
-    -DFOLDER=${CMAKE_CURRENT_LIST_DIR} -DTHRESHOLD=${golden_threshold} -DPIXELS=${golden_pixels}
-    -P ${CMAKE_CURRENT_LIST_DIR}/pairs.cmake)
+add_executable(test_golden_pairs ${CMAKE_CURRENT_LIST_DIR}/test_golden_pairs.c
+    ${PROJECT_SOURCE_DIR}/src/app/cmd_compare.c ${PROJECT_SOURCE_DIR}/src/app/compare_flip.c
+    ${PROJECT_SOURCE_DIR}/src/app/options.c)
+target_link_libraries(test_golden_pairs PRIVATE turner_flags PkgConfig::CMOCKA PkgConfig::CJSON
+    turner_base turner_image ${turner_image_libraries})
+add_test(NAME golden_pairs COMMAND test_golden_pairs ${CMAKE_CURRENT_LIST_DIR}
+    ${golden_threshold} ${golden_pixels})
 set_tests_properties(golden_pairs PROPERTIES LABELS "golden")
