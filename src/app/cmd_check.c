@@ -53,6 +53,16 @@ static enum turner_result check_scene(const char *path, bool quiet)
     return TURNER_OK;
 }
 
+/* Whether the kernel includes a file of that name. */
+static bool includes(const struct turner_shader_source *source, const char *name)
+{
+    for (size_t i = 0; i < source->file_count; i++) {
+        if (strcmp(source->files[i].name, name) == 0)
+            return true;
+    }
+    return false;
+}
+
 /* `path` as a shader of its own (.comp), or as an include put into the renderer's place of it. */
 static enum turner_result check_shader(const char *path, bool quiet)
 {
@@ -68,6 +78,11 @@ static enum turner_result check_shader(const char *path, bool quiet)
     enum turner_result result;
     TURNER_TRY_DONE(turner_shader_source_create(
         &source, ending && strcmp(ending, ".comp") == 0 ? name : "render.comp", folders, 1));
+    if (!includes(&source, name)) {
+        result = turner_fail(TURNER_BAD_INPUT, "%s: the kernel includes no file of that name; a "
+                                               "shader replaces one of shaders/", path);
+        goto done;
+    }
     TURNER_TRY_DONE(turner_compile(&spirv, &source, NULL, 0));
     TURNER_TRY_DONE(turner_spirv_validate(&spirv));
     if (!quiet)
