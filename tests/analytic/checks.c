@@ -5,10 +5,9 @@
  * renderer. PICTURE allows that twice; printed numbers allow half of their last digit.
  *
  * A renderer that is float throughout (the second number) carries some 10 to 30 roundings of 6e-8
- * along a path of a few hits, and starts from corners and directions rounded to float: 4e-6 is that
- * with room for its accumulation, and where a check needs more its line says why. */
+ * along a path of a few hits, and starts from corners and directions rounded to float: up to 2e-6. */
 #define PICTURE 1.2e-7
-#define FLOAT_PATH 4e-6
+#define FLOAT_PATH 2e-6
 
 const struct analytic_check analytic_checks[] = {
     {"fresnel table", check_fresnel_table, 6e-7, FLOAT_PATH},
