@@ -9,8 +9,7 @@ import sys
 
 # (x, z, height, radius): hills are caps of large spheres
 HILLS = ((-14, -16, 3.2, 30), (16, -24, 5.5, 34), (2, -58, 9, 60))
-PATH = (1.2, 2.6) # no trees near this line towards the house
-HOUSE = (1.6, -9.0)
+HOUSE = (1.6, -9.0) # no trees between it and the camera
 
 HEAD = {
     "$schema": "schema.json",
@@ -19,7 +18,7 @@ HEAD = {
     "settings": {"size": [640, 480], "spp": 4, "depth": 0},
     "camera": {"from": [0, 3.4, 15], "at": [0.6, 2.2, 0], "vfov": 34},
     "ambient": [0.15, 0.20, 0.34],
-    "background": {"type": "gradient", "bottom": [1.5, 0.62, 0.26], "top": [-0.0, 0.0, 0.0]},
+    "background": {"type": "gradient", "bottom": [1.5, 0.62, 0.26], "top": [0.02, 0.10, 0.42]},
 }
 
 
@@ -52,7 +51,7 @@ def fir(tiers, height, spread, material):
 
 
 def place(rng, count):
-    """Where trees stand: not on the path, not in the house, not in each other."""
+    """Where trees stand: not before the house, not in it, not in each other."""
     spots = []
     while len(spots) < count:
         z = rng.uniform(-52, 9)
@@ -86,7 +85,6 @@ def main():
     scene = dict(HEAD)
     scene["description"] = (f"{len(instances)} firs, three of which are in the file: each is a "
                             "group of cones, put in place by an affine transform of its own.")
-    scene["background"]["top"] = [0.02, 0.10, 0.42]
     scene["materials"] = {
         "snow": {"k_a": 0.95, "k_d": [0.86, 0.87, 0.90]},
         "needles": {"k_a": [0.10, 0.22, 0.16], "k_d": [0.045, 0.13, 0.075]},

@@ -119,7 +119,10 @@ def write_json(out, depth):
             {"type": "point", "position": [-3, 4, 3], "intensity": [6, 6.5, 8]},
         ],
     }
-    up = lambda v: (v[1], v[2], v[0])  # z up becomes y up
+
+    def up(v):  # z up becomes y up
+        return v[1], v[2], v[0]
+
     spheres, instances = [], []
     for left, frame, center, radius in branches(depth, towards((0, 0, 1)), (0, 0, 0.5), 0.5):
         if left > TWIG:
