@@ -35,3 +35,15 @@ foreach(scene IN LISTS switch_scenes)
     get_filename_component(name ${scene} NAME_WE)
     turner_device_test(switches_${name} test_switches ${scene})
 endforeach()
+
+turner_render_test(repeat)
+turner_device_test(repeat test_repeat)
+
+turner_render_test(soak)
+turner_device_test(soak test_soak)
+
+turner_render_test(counts)
+turner_device_test(counts test_counts)
+
+turner_render_test(edges)
+turner_device_test(edges test_edges)
