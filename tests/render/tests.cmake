@@ -1,4 +1,5 @@
 # Whole pictures: what is compiled in, that nothing but the scene decides them, counts, edge cases.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
 find_program(TURNER_SPIRV_OPT spirv-opt DOC "Specialises kernels for a test of their size")
 if(NOT TURNER_SPIRV_OPT)
     set(TURNER_SPIRV_OPT "")
@@ -47,3 +48,9 @@ turner_device_test(counts test_counts)
 
 turner_render_test(edges)
 turner_device_test(edges test_edges)
+
+foreach(what IN ITEMS files stats nonfinite)
+    turner_device_test(output_${what} Python3::Interpreter
+        ${CMAKE_CURRENT_LIST_DIR}/command_output.py ${what})
+    set_property(TEST output_${what} APPEND PROPERTY ENVIRONMENT "TURNER=$<TARGET_FILE:turner>")
+endforeach()
