@@ -120,7 +120,8 @@ static long specialised_size(const char *folder, const struct turner_kernel *ker
     fclose(file);
     snprintf(command, sizeof command,
              "'%s' --set-spec-const-default-value '%d:%u %d:%u %d:16' --freeze-spec-const "
-             "--fold-spec-const-op-composite --ccp --eliminate-dead-branches -O '%s' -o '%s'",
+             "--fold-spec-const-op-composite --ccp --eliminate-dead-branches -O "
+             "--scalar-block-layout '%s' -o '%s'",
              TURNER_SPIRV_OPT, TURNER_CONSTANT_NEEDS, bits, TURNER_CONSTANT_STACK, stack,
              TURNER_CONSTANT_BVH_STACK, in, out);
     assert_int_equal(system(command), 0);
