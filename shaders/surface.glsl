@@ -14,7 +14,9 @@ struct surface_t {
 const uint UNKNOWN_UV = TURNER_NEEDS_CHECKER | TURNER_NEEDS_IMAGES;
 
 // How many spacings of float a point may lie off its surface. Points are put back onto their
-// surface below, so the error is that of a few operations on numbers of the size of the point.
+// surface below, so the error is that of a few operations on numbers of the size of the point. The
+// largest coordinate counts whatever the normal: the triangle test makes t from the axis along which
+// the ray is longest, and must not find t > 0 for the surface that was left.
 const float CLEARANCE_ULPS = 8.0;
 
 void surface_of_sphere(inout surface_t surface, turner_gpu_primitive sphere, vec3 p,

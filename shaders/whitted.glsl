@@ -161,10 +161,8 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
         vec3 travelled = vec3(1.0);
         if (NEEDS_ANY(TURNER_NEEDS_MEDIA))
             travelled = media_transmittance(crossing.before, ray.start + search.hit.t);
-        if (met && (shadow || !real) && ++crossings > scene.max_crossings) {
-            counts.low[TURNER_COUNT_UNFINISHED]++;
+        if (met && (shadow || !real) && ++crossings > scene.max_crossings)
             break;
-        }
 
         if (shadow) {
             light *= travelled;
