@@ -21,7 +21,7 @@ struct path_t { // a ray that carries light to the picture
 struct shading_t { // the surface being lit
     surface_t surface;
     turner_gpu_material material;
-    vec3 N, V;
+    vec3 ng, N, V; // the normals on V's side
     vec3 weight;
     uint64_t media; // on V's side
     uint light;     // the next to ask
@@ -114,6 +114,52 @@ void add(inout sum_t sum, vec3 term)
     sum = sum_t(value, lost);
 }
 
+// What a ray met; a transmissive surface between a medium and itself is none, not real.
+struct meeting_t {
+    surface_t surface;
+    turner_gpu_material material;
+    crossing_t crossing; // lists of media on the ray's side and beyond
+};
+
+meeting_t meet(ray_t ray, hit_t hit, uint64_t media)
+{
+    meeting_t met;
+    met.surface = surface_of(ray, hit);
+    met.material = material_at(met.surface);
+    met.crossing = crossing_t(media, media, true);
+    if (NEEDS_ANY(TURNER_NEEDS_MEDIA) && met.surface.transmissive)
+        met.crossing = media_cross(media, met.material.medium + 1u,
+                                   dot(ray.direction, met.surface.ng) < 0.0);
+    return met;
+}
+
+// The surface as its lights see it; one that reflects no light asks none.
+shading_t shading_of(meeting_t met, vec3 V, vec3 weight)
+{
+    vec3 ng = dot(met.surface.ng, V) < 0.0 ? -met.surface.ng : met.surface.ng;
+    vec3 N = dot(met.surface.ns, ng) < 0.0 ? -met.surface.ns : met.surface.ns;
+    bool dark = met.material.k_d == vec3(0.0) && met.material.k_s == vec3(0.0);
+    return shading_t(met.surface, met.material, ng, N, V, weight, met.crossing.before,
+                     dark ? scene.light_count : 0u);
+}
+
+// The next light that reaches the surface from the front: the ray to it, and what arrives in the
+// pixel if nothing is in the way. False when all have been asked.
+bool next_light(inout shading_t shading, out ray_t ray, out vec3 light)
+{
+    while (shading.light < scene.light_count) {
+        turner_gpu_light source = light_array(scene.lights).at[shading.light++];
+        arrival_t arrival = light_arrival(source, shading.surface.point);
+        if (!(dot(shading.N, arrival.direction) > 0.0) || arrival.irradiance == vec3(0.0))
+            continue;
+        light = shading.weight * arrival.irradiance *
+                local_illumination(shading.material, shading.N, shading.V, arrival.direction);
+        ray = spawn_ray(shading.surface, arrival.direction, arrival.distance);
+        return true;
+    }
+    return false;
+}
+
 // Radiance along the camera ray, and the sum of the weights that were cut in the fourth component.
 vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
 {
@@ -127,130 +173,88 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
 
     shading_t shading;
     shading.light = scene.light_count;
-    bool shadow = false;  // this turn's ray is a shadow ray
-    ray_t shadow_ray;
-    vec3 light;           // what arrives in the pixel if nothing is in the way
-    uint64_t shadow_media = 0ul;
+    bool shadow = false; // this turn's ray is a shadow ray
+    path_t to_light;     // it; its weight is what arrives in the pixel from the light
     uint crossings = 0u;
     counts.low[TURNER_COUNT_CAMERA]++;
 
     for (uint turn = 0u; turn < scene.max_steps; turn++) {
-        ray_t ray = path.ray;
-        uint64_t media = path.media;
-        if (shadow) {
-            ray = shadow_ray;
-            media = shadow_media;
-        }
+        path_t current = path;
+        if (shadow)
+            current = to_light;
+        ray_t ray = current.ray;
         search_t search = trace(ray, shadow);
 
-        // ---- what the ray met; a transmissive surface may be none ----
-        surface_t surface;
-        turner_gpu_material material;
-        bool met = search.found && !(shadow && search.blocked);
-        bool real = met;
-        crossing_t crossing = crossing_t(media, media, true);
-        if (met) {
-            surface = surface_of(ray, search.hit);
-            material = material_at(surface);
-            if (NEEDS_ANY(TURNER_NEEDS_MEDIA) && surface.transmissive) {
-                crossing = media_cross(media, material.medium + 1u,
-                                       dot(ray.direction, surface.ng) < 0.0);
-                real = crossing.real;
-            }
-        }
-        vec3 travelled = vec3(1.0);
+        meeting_t met;
+        met.crossing = crossing_t(current.media, current.media, true);
+        bool any = search.found && !search.blocked;
+        if (any)
+            met = meet(ray, search.hit, current.media);
         if (NEEDS_ANY(TURNER_NEEDS_MEDIA))
-            travelled = media_transmittance(crossing.before, ray.start + search.hit.t);
-        if (met && (shadow || !real) && ++crossings > scene.max_crossings)
-            break;
+            current.weight *= media_transmittance(met.crossing.before, ray.start + search.hit.t);
 
-        if (shadow) {
-            light *= travelled;
-            if (met && real)
-                light *= material.k_t;
-            if (search.blocked) {
-                shadow = false;
-            } else if (met && light != vec3(0.0)) {
-                shadow_media = crossing.after;
-                shadow_ray = spawn_ray(surface, ray.direction, ray.t_max - search.hit.t);
-                continue;
-            } else {
-                add(radiance, light);
-                shadow = false;
-            }
-        } else {
-            path.weight *= travelled;
-            if (met && !real) {
-                path.media = crossing.after;
-                path.ray = spawn_ray(surface, ray.direction, INFINITY);
+        if (any && (shadow || !met.crossing.real)) {
+            // ---- straight on through it ----
+            if (++crossings > scene.max_crossings)
+                break;
+            current.ray = spawn_ray(met.surface, ray.direction, ray.t_max - search.hit.t);
+            current.media = met.crossing.after;
+            if (!shadow) {
+                path = current;
                 continue;
             }
-            if (!met)
-                add(radiance, path.weight * background(ray.direction));
-            if (met) {
-                // ---- shade: emission, ambient, and what is sent on; the lights come below ----
-                if (path.depth == 0u)
-                    counts.low[TURNER_COUNT_CAMERA_HITS]++;
-                counts.largest_depth = max(counts.largest_depth, path.depth);
-                vec3 V = -ray.direction;
-                vec3 ng = dot(surface.ng, V) < 0.0 ? -surface.ng : surface.ng;
-                vec3 N = dot(surface.ns, ng) < 0.0 ? -surface.ns : surface.ns;
-                add(radiance, path.weight * (material.k_e + material.k_a * scene.ambient));
-                shading = shading_t(surface, material, N, V, path.weight, crossing.before, 0u);
-                if (material.k_d == vec3(0.0) && material.k_s == vec3(0.0))
-                    shading.light = scene.light_count;
+            to_light = current;
+            if (met.crossing.real)
+                to_light.weight *= met.material.k_t;
+            if (to_light.weight != vec3(0.0))
+                continue;
+        } else if (any) {
+            // ---- emission, ambient, and what is sent on; the lights come below ----
+            vec3 weight = current.weight;
+            shading = shading_of(met, -ray.direction, weight);
+            add(radiance, weight * (met.material.k_e + met.material.k_a * scene.ambient));
+            if (path.depth == 0u)
+                counts.low[TURNER_COUNT_CAMERA_HITS]++;
 
-                if (NEEDS_ANY(TURNER_NEEDS_REFLECTION | TURNER_NEEDS_TRANSMISSION)) {
-                    secondary_t sent = secondary_rays(material, surface.transmissive, ng, N, V,
-                                                      crossing.before, crossing.after);
-                    vec3 w_r = path.weight * sent.w_r, w_t = path.weight * sent.w_t;
-                    uint depth = path.depth + 1u;
-                    // the SPD's counts take every glass for a mirror too, and know no weight
-                    bool spd = scene.spd_rays != 0u;
-                    bool spd_r = spd && (surface.transmissive || sent.w_r != vec3(0.0));
-                    bool spd_t = spd && sent.w_t != vec3(0.0);
-                    if (follow(w_r, depth, spd_r, pruned)) {
-                        next = path_t(spawn_ray(surface, sent.reflected, INFINITY), w_r, depth,
-                                      crossing.before);
-                        has_next = true;
-                        counts.low[TURNER_COUNT_REFLECTED]++;
-                        if (sent.total)
-                            counts.low[TURNER_COUNT_TIR]++;
-                    }
-                    if (NEEDS_ANY(TURNER_NEEDS_TRANSMISSION) && follow(w_t, depth, spd_t, pruned)) {
-                        path_t beyond = path_t(spawn_ray(surface, sent.refracted, INFINITY), w_t,
-                                               depth, crossing.after);
-                        counts.low[TURNER_COUNT_REFRACTED]++;
-                        if (!has_next)
-                            next = beyond;
-                        else if (NEEDS_ANY(TURNER_NEEDS_BRANCHING))
-                            stack[height++] = beyond;
-                        has_next = true;
-                    }
+            if (NEEDS_ANY(TURNER_NEEDS_REFLECTION | TURNER_NEEDS_TRANSMISSION)) {
+                secondary_t sent = secondary_rays(met.material, met.surface.transmissive,
+                                                  shading.ng, shading.N, shading.V,
+                                                  met.crossing.before, met.crossing.after);
+                uint depth = path.depth + 1u;
+                // the SPD's counts take every glass for a mirror too, and know no weight
+                bool spd = scene.spd_rays != 0u;
+                bool spd_r = spd && (met.surface.transmissive || sent.w_r != vec3(0.0));
+                bool spd_t = spd && sent.w_t != vec3(0.0);
+                if (follow(weight * sent.w_r, depth, spd_r, pruned)) {
+                    next = path_t(spawn_ray(met.surface, sent.reflected, INFINITY),
+                                  weight * sent.w_r, depth, met.crossing.before);
+                    has_next = true;
+                    counts.low[TURNER_COUNT_REFLECTED]++;
+                    if (sent.total)
+                        counts.low[TURNER_COUNT_TIR]++;
+                }
+                if (NEEDS_ANY(TURNER_NEEDS_TRANSMISSION) &&
+                    follow(weight * sent.w_t, depth, spd_t, pruned)) {
+                    path_t beyond = path_t(spawn_ray(met.surface, sent.refracted, INFINITY),
+                                           weight * sent.w_t, depth, met.crossing.after);
+                    counts.low[TURNER_COUNT_REFRACTED]++;
+                    if (!has_next)
+                        next = beyond;
+                    else if (NEEDS_ANY(TURNER_NEEDS_BRANCHING))
+                        stack[height++] = beyond;
+                    has_next = true;
                 }
             }
+        } else if (!search.blocked) {
+            add(radiance, shadow ? current.weight : current.weight * background(ray.direction));
         }
 
-        // ---- the next light that reaches the surface from the front ----
-        for (; !shadow && shading.light < scene.light_count; shading.light++) {
-            turner_gpu_light source = light_array(scene.lights).at[shading.light];
-            arrival_t arrival = light_arrival(source, shading.surface.point);
-            if (!(dot(shading.N, arrival.direction) > 0.0) || arrival.irradiance == vec3(0.0))
-                continue;
-            light = shading.weight * arrival.irradiance *
-                    local_illumination(shading.material, shading.N, shading.V, arrival.direction);
-            shadow_ray = spawn_ray(shading.surface, arrival.direction, arrival.distance);
-            shadow_media = shading.media;
-            crossings = 0u;
-            shadow = true;
-            counts.low[TURNER_COUNT_SHADOW]++;
-        }
-        if (shadow)
-            continue;
-
-        // ---- the next ray that carries light ----
         crossings = 0u;
-        if (has_next) {
+        shadow = next_light(shading, to_light.ray, to_light.weight);
+        if (shadow) {
+            to_light.media = shading.media;
+            counts.low[TURNER_COUNT_SHADOW]++;
+        } else if (has_next) {
             path = next;
             has_next = false;
         } else if (NEEDS_ANY(TURNER_NEEDS_BRANCHING) && height > 0u) {
