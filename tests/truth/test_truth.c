@@ -63,7 +63,10 @@ static void judge(struct turner_scene *scene, const struct turner_world *world,
         failures++;
 }
 
-/* Both traversals at the scene's own size: all but 1e-5 of the pixels the same, the rest edges. */
+/* Both traversals at the scene's own size: all but 1e-5 of the pixels the same, the rest edges. What
+ * bvh sees there must be explained. What ray_query sees need not be where the camera ray meets an
+ * edge: the device's own triangle test, which offers the candidates, lets some rays slip through
+ * vertices (tests/watertight counts them). */
 static void compare_traversals(struct turner_scene *scene, const struct turner_world *world,
                                int width, int height)
 {
@@ -84,7 +87,7 @@ static void compare_traversals(struct turner_scene *scene, const struct turner_w
         printf("  traversals differ at %d,%d: %g %g %g (%s), %g %g %g (%s)\n", i % width,
                i / width, (double)a[0], (double)a[1], (double)a[2], cause_names[a_cause],
                (double)b[0], (double)b[1], (double)b[2], cause_names[b_cause]);
-        if (a_cause == CAUSE_NONE || b_cause == CAUSE_NONE)
+        if (a_cause == CAUSE_NONE || (b_cause == CAUSE_NONE && a_cause != CAUSE_EDGE))
             failures++;
         different++;
     }
