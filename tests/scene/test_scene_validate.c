@@ -117,8 +117,37 @@ static void one_wrong_thing(void **state)
     CASES(CHECK)
 }
 
+/* Counts are judged before anything they count is looked at, so that they can be claimed here. */
+static void limits(void **state)
+{
+    (void)state;
+    struct turner_scene *s = must_parse(whole);
+    struct {
+        size_t *count, limit;
+        const char *message;
+    } cases[] = {
+        {&s->material_count, TURNER_MAX_MATERIALS, "1048577 materials; 1048576 are the limit"},
+        {&s->media_count, TURNER_MAX_MEDIA, "256 media; 255 are the limit"},
+        {&s->plane_count, TURNER_MAX_PLANES, "65 planes; 64 are the limit"},
+        {&s->light_count, TURNER_MAX_LIGHTS, "4097 lights; 4096 are the limit"},
+        {&s->instance_count, TURNER_MAX_INSTANCES, "16777216 instances; 16777215 are the limit"},
+        {&s->groups[0].sphere_count, TURNER_MAX_PRIMITIVES, "primitives or more; 268435456 are"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        size_t count = *cases[i].count;
+        *cases[i].count = cases[i].limit + 1;
+        if (turner_scene_validate(s) != TURNER_BAD_INPUT)
+            fail_msg("accepted: %s", cases[i].message);
+        if (!strstr(turner_message(), cases[i].message))
+            fail_msg("\"%s\" instead of \"%s\"", turner_message(), cases[i].message);
+        *cases[i].count = count;
+    }
+    turner_scene_destroy(s);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(one_wrong_thing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(one_wrong_thing),
+                                       cmocka_unit_test(limits)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
