@@ -25,7 +25,7 @@ double turner_seconds(void)
 enum turner_result turner_choose_traversal(bool *ray_query, const struct turner_gpu_info *info,
                                            enum turner_traversal wanted)
 {
-    /* a CPU is faster at our own hierarchy (docs/performance.md), hardware at its own */
+    /* a CPU is faster at our own hierarchy (turner render --stats shows it), hardware at its own */
     *ray_query = wanted == TURNER_TRAVERSAL_RAY_QUERY ||
                  (wanted == TURNER_TRAVERSAL_AUTO && info->ray_query && !info->software);
     if (*ray_query && !info->ray_query)
