@@ -58,7 +58,7 @@ enum turner_traversal { TURNER_TRAVERSAL_AUTO, TURNER_TRAVERSAL_BVH, TURNER_TRAV
 struct turner_render_options {
     const char *device; /* NULL: best; an index or part of a name; "reference": extended precision
                            on the CPU, no Vulkan */
-    enum turner_traversal traversal;
+    enum turner_traversal traversal; /* auto: as the scene's settings say */
     const char *const *shader_dirs; /* searched first */
     size_t shader_dir_count;
     int tile;            /* pixels, width and height of what is traced at once; 0 adapts to time */

@@ -7,7 +7,7 @@
 #include "image/atomic.h"
 #include "image/image.h"
 #include "render/renderer.h"
-#include "scene/scene.h"
+#include "scene/methods.h"
 
 static void print_help(void)
 {
@@ -20,6 +20,8 @@ static void print_help(void)
          "      --depth N          how often light may be reflected or refracted\n"
          "      --cutoff X         rays that count less are not followed; 0 follows all\n"
          "      --spp N            samples per pixel\n"
+         "  -m, --method NAME=VALUE  a way to compute: sphere=textbook, aa=adaptive:0.05,64 …; turner\n"
+         "                         params lists them (may be repeated)\n"
          "      --shading KIND     phong | energy_conserving\n"
          "      --shadows KIND     opaque | tinted\n"
          "      --exposure STOPS   for .png .jpg .ppm: brighter by 2 to the power of it\n"
@@ -40,6 +42,7 @@ static void print_help(void)
 }
 
 #define MAX_SHADER_DIRS 16
+#define MAX_METHODS 64
 
 struct arguments {
     const char *scene, *output, *stats;
@@ -47,6 +50,8 @@ struct arguments {
     double cutoff, exposure; /* NaN: the scene's */
     bool spd_rays, spd_grid, print_settings, quiet;
     const char *shader_dirs[MAX_SHADER_DIRS];
+    const char *methods[MAX_METHODS]; /* "name=value", later ones win */
+    size_t method_count;
     struct turner_render_options render;
 };
 
@@ -57,6 +62,7 @@ enum { OPTION_SIZE = 256, OPTION_DEPTH, OPTION_CUTOFF, OPTION_SPP, OPTION_SHADIN
 
 static const struct option long_options[] = {
     {"output", required_argument, NULL, 'o'},
+    {"method", required_argument, NULL, 'm'},
     {"size", required_argument, NULL, OPTION_SIZE},
     {"depth", required_argument, NULL, OPTION_DEPTH},
     {"cutoff", required_argument, NULL, OPTION_CUTOFF},
@@ -89,6 +95,11 @@ static enum turner_result take(struct arguments *a, int option, char **argv)
     switch (option) {
     case 'o': a->output = optarg; return TURNER_OK;
     case 'd': a->render.device = optarg; return TURNER_OK;
+    case 'm':
+        if (a->method_count == MAX_METHODS)
+            return turner_fail(TURNER_USAGE, "--method can be given %d times", MAX_METHODS);
+        a->methods[a->method_count++] = optarg;
+        return TURNER_OK;
     case 'q': a->quiet = true; return TURNER_OK;
     case OPTION_SIZE: return turner_option_size(&a->width, &a->height, "--size", optarg);
     case OPTION_DEPTH: return turner_option_int(&a->depth, "--depth", optarg, 0, TURNER_MAX_DEPTH);
@@ -125,6 +136,8 @@ static enum turner_result take(struct arguments *a, int option, char **argv)
 static enum turner_result apply(const struct arguments *a, struct turner_scene *scene)
 {
     struct turner_settings *s = &scene->settings;
+    for (size_t i = 0; i < a->method_count; i++)
+        TURNER_TRY(turner_method_assign(s, a->methods[i]));
     if (a->width)
         s->width = a->width, s->height = a->height;
     if (a->depth >= 0)
@@ -132,7 +145,7 @@ static enum turner_result apply(const struct arguments *a, struct turner_scene *
     if (!isnan(a->cutoff))
         s->cutoff = a->cutoff;
     if (a->spp)
-        s->spp = a->spp;
+        s->spp = a->spp, s->aa_threshold = 0;
     if (a->shading >= 0)
         s->shading = (enum turner_shading)a->shading;
     if (a->shadows >= 0)
@@ -211,7 +224,7 @@ enum turner_result turner_cmd_render(int argc, char **argv)
     struct arguments a = {.depth = -1, .cutoff = NAN, .exposure = NAN, .shading = -1,
                           .shadows = -1, .transfer = -1};
     opterr = 0;
-    for (int option; (option = getopt_long(argc, argv, "o:d:qh", long_options, NULL)) != -1;) {
+    for (int option; (option = getopt_long(argc, argv, "o:d:m:qh", long_options, NULL)) != -1;) {
         if (option == 'h') {
             print_help();
             return TURNER_OK;

@@ -1,13 +1,10 @@
 #include "app/compare_flip.h"
 
 #include <errno.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-extern char **environ;
+#include "app/process.h"
 
 enum { NO_PACKAGE = 86 }; /* exit status of the script below */
 
@@ -45,25 +42,13 @@ static bool put(FILE *file, const struct turner_image *image)
 /* Runs the script with files instead of pipes, so that neither side can wait for the other. */
 static enum turner_result run(FILE *input, FILE *output, char *const arguments[])
 {
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, fileno(input), STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, fileno(output), STDOUT_FILENO);
-    pid_t child;
-    int error = posix_spawnp(&child, arguments[0], &actions, NULL, arguments, environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (error) {
-        return turner_fail(TURNER_BAD_INPUT, "--flip needs python3: %s; install it and the package "
-                                             "flip-evaluator", strerror(error));
-    }
-    int status;
-    while (waitpid(child, &status, 0) < 0) {
-        if (errno != EINTR)
-            return turner_fail(TURNER_BAD_INPUT, "--flip: %s", strerror(errno));
-    }
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
+    int status = turner_process_run(arguments, fileno(input), fileno(output));
+    if (status == 0)
         return TURNER_OK;
-    if (WIFEXITED(status) && (WEXITSTATUS(status) == NO_PACKAGE || WEXITSTATUS(status) == 127)) {
+    if (status < 0)
+        return turner_fail(TURNER_BAD_INPUT, "--flip: python3 did not end well: %s",
+                           strerror(errno));
+    if (status == NO_PACKAGE || status == 127) {
         return turner_fail(TURNER_BAD_INPUT, "--flip needs python3 with the package "
                                              "flip-evaluator; install it with \"python3 -m pip "
                                              "install flip-evaluator numpy\"");

@@ -7,7 +7,7 @@
 #include "app/app.h"
 #include "image/atomic.h"
 #include "render/needs.h"
-#include "scene/scene.h"
+#include "scene/methods.h"
 
 static cJSON *settings_object(const struct turner_settings *settings)
 {
@@ -26,6 +26,15 @@ static cJSON *settings_object(const struct turner_settings *settings)
                                                     ? "linear" : "srgb");
     cJSON_AddBoolToObject(object, "spd_rays", settings->spd_rays);
     cJSON_AddBoolToObject(object, "spd_grid", settings->spd_grid);
+    cJSON *methods = cJSON_AddObjectToObject(object, "methods");
+    for (size_t i = 0; i < turner_method_count; i++) {
+        const char *name = turner_methods_list[i].name;
+        char text[TURNER_METHOD_TEXT];
+        if (strcmp(name, "depth") == 0 || strcmp(name, "cutoff") == 0)
+            continue; /* stand above, as numbers */
+        turner_method_text(text, settings, name);
+        cJSON_AddStringToObject(methods, name, text);
+    }
     return object;
 }
 

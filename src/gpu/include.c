@@ -149,8 +149,8 @@ static enum turner_result find_file(struct expansion *e, const char *name, size_
         free(path);
         TURNER_TRY(result);
     }
-    for (size_t i = 0; i < turner_embedded_file_count; i++) {
-        const struct turner_embedded_file *file = &turner_embedded_files[i];
+    for (size_t i = 0; i < turner_embedded_shaders_count; i++) {
+        const struct turner_embedded_file *file = &turner_embedded_shaders[i];
         if (strcmp(file->name, name) == 0) {
             *index = add_file(e, name, join("built-in", name), turner_strdup(file->text), true);
             return TURNER_OK;

@@ -10,17 +10,15 @@
 #ifndef TURNER_GPU_INCLUDE_H
 #define TURNER_GPU_INCLUDE_H
 
+#include "base/embedded.h"
 #include "base/result.h"
 
 #define TURNER_INCLUDE_DEPTH 32        /* files inside files */
 #define TURNER_SOURCE_BYTES (4u << 20) /* of the whole expanded text */
 
-/* A copy of a file of shaders/ in the program; `name` is relative to shaders/. */
-struct turner_embedded_file {
-    const char *name, *text;
-};
-extern const struct turner_embedded_file turner_embedded_files[]; /* sorted by name */
-extern const size_t turner_embedded_file_count;
+/* Copies of the files of shaders/ in the program; names are relative to shaders/. */
+extern const struct turner_embedded_file turner_embedded_shaders[]; /* sorted by name */
+extern const size_t turner_embedded_shaders_count;
 
 struct turner_source_file {
     char *name;    /* as included */

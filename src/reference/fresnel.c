@@ -73,7 +73,8 @@ static struct turner_secondary opaque_weights(const struct turner_material *mate
 }
 
 struct turner_secondary turner_secondary_weights(const struct turner_material *material,
-                                                 turner_real n1, turner_real n2, turner_real c)
+                                                 enum turner_fresnel fresnel, turner_real n1,
+                                                 turner_real n2, turner_real c)
 {
     turner_vector k_r = widen(material->k_r), k_t = widen(material->k_t);
     if (largest(k_r) == 0 && largest(k_t) == 0)
@@ -82,12 +83,12 @@ struct turner_secondary turner_secondary_weights(const struct turner_material *m
         return opaque_weights(material, n1, c);
 
     bool total = turner_cosine2_refracted(n1, n2, c) < 0;
-    if (material->fresnel == TURNER_FRESNEL_NONE) {
+    if (fresnel == TURNER_FRESNEL_NONE) {
         return total ? (struct turner_secondary){.reflected = add(k_r, k_t), .total = true}
                      : (struct turner_secondary){.reflected = k_r, .refracted = k_t};
     }
-    turner_real f = material->fresnel == TURNER_FRESNEL_SCHLICK ? turner_fresnel_schlick(n1, n2, c)
-                                                                : turner_fresnel_exact(n1, n2, c);
+    turner_real f = fresnel == TURNER_FRESNEL_SCHLICK ? turner_fresnel_schlick(n1, n2, c)
+                                                      : turner_fresnel_exact(n1, n2, c);
     if (total)
         f = 1;
     return (struct turner_secondary){

@@ -23,8 +23,9 @@ turner_real turner_fresnel_schlick(turner_real n1, turner_real n2, turner_real c
 turner_real turner_fresnel_conductor(turner_real eta, turner_real k, turner_real c);
 
 /* The weights of a hit on `material` with c = N·V, coming from index n1; n2 behind it counts only
- * where the material transmits. */
+ * where the material transmits. `fresnel` is turner_material_fresnel of it. */
 struct turner_secondary turner_secondary_weights(const struct turner_material *material,
-                                                 turner_real n1, turner_real n2, turner_real c);
+                                                 enum turner_fresnel fresnel, turner_real n1,
+                                                 turner_real n2, turner_real c);
 
 #endif

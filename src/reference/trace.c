@@ -166,7 +166,9 @@ static turner_vector secondary_radiance(struct turner_tracer *tracer,
     turner_real n1 = turner_media_index(&point->media, scene);
     turner_real n2 = turner_media_index(&point->beyond, scene);
     struct turner_secondary w =
-        turner_secondary_weights(point->material, n1, n2, dot(point->ns, point->v));
+        turner_secondary_weights(point->material,
+                                 turner_material_fresnel(&scene->settings, point->material), n1,
+                                 n2, dot(point->ns, point->v));
     turner_vector w_r = mul(weight, w.reflected), w_t = mul(weight, w.refracted);
 
     /* The SPD's counts take every glass for a mirror too, and know no weight. */

@@ -26,14 +26,16 @@ static enum turner_result upload(struct turner_device_scene *device, struct turn
     return bytes ? turner_buffer_upload(gpu, &device->arrays[array], 0, data, bytes) : TURNER_OK;
 }
 
-static struct turner_gpu_material gpu_material(const struct turner_material *m)
+static struct turner_gpu_material gpu_material(const struct turner_settings *settings,
+                                               const struct turner_material *m)
 {
+    enum turner_fresnel fresnel = turner_material_fresnel(settings, m);
     struct turner_gpu_material g = {
         .uv_scale = {(float)m->uv_scale[0], (float)m->uv_scale[1]},
         .exponent = (float)m->exponent,
         .fresnel = m->conductor                            ? TURNER_FRESNEL_KIND_CONDUCTOR
-                   : m->fresnel == TURNER_FRESNEL_EXACT    ? TURNER_FRESNEL_KIND_EXACT
-                   : m->fresnel == TURNER_FRESNEL_SCHLICK  ? TURNER_FRESNEL_KIND_SCHLICK
+                   : fresnel == TURNER_FRESNEL_EXACT       ? TURNER_FRESNEL_KIND_EXACT
+                   : fresnel == TURNER_FRESNEL_SCHLICK     ? TURNER_FRESNEL_KIND_SCHLICK
                                                            : TURNER_FRESNEL_KIND_NONE,
         .medium = m->medium,
         .pattern = m->pattern == TURNER_PATTERN_CHECKER ? TURNER_PATTERN_KIND_CHECKER
@@ -79,7 +81,7 @@ static enum turner_result upload_materials(struct turner_device_scene *device,
     struct turner_gpu_material *materials =
         turner_calloc(scene->material_count + 1, sizeof *materials);
     for (size_t i = 0; i < scene->material_count; i++)
-        materials[i] = gpu_material(&scene->materials[i]);
+        materials[i] = gpu_material(&scene->settings, &scene->materials[i]);
     enum turner_result result = upload(device, gpu, TURNER_ARRAY_MATERIALS, materials,
                                        scene->material_count * sizeof *materials);
     free(materials);

@@ -22,9 +22,10 @@ static uint32_t needs_of_material(const struct turner_material *m,
         bits |= TURNER_NEEDS_TINTED;
     if (transmits && (reflects || settings->spd_rays))
         bits |= TURNER_NEEDS_BRANCHING;
-    if (m->fresnel == TURNER_FRESNEL_SCHLICK && (reflects || transmits))
+    enum turner_fresnel fresnel = turner_material_fresnel(settings, m);
+    if (fresnel == TURNER_FRESNEL_SCHLICK && (reflects || transmits))
         bits |= TURNER_NEEDS_SCHLICK;
-    if (m->fresnel == TURNER_FRESNEL_EXACT && transmits)
+    if (fresnel == TURNER_FRESNEL_EXACT && transmits)
         bits |= TURNER_NEEDS_EXACT;
     if (m->conductor && reflects)
         bits |= TURNER_NEEDS_CONDUCTOR;

@@ -77,7 +77,10 @@ static enum turner_result draw_on_device(struct turner_image *image,
     statistics->seconds_device = turner_seconds() - start;
     snprintf(statistics->device, sizeof statistics->device, "%s", gpu.info.name);
     snprintf(statistics->driver, sizeof statistics->driver, "%s", gpu.info.driver);
-    TURNER_TRY_DONE(turner_choose_traversal(&ray_query, &gpu.info, options->traversal));
+    enum turner_traversal wanted = options->traversal != TURNER_TRAVERSAL_AUTO
+                                       ? options->traversal
+                                       : scene->settings.methods.traversal;
+    TURNER_TRY_DONE(turner_choose_traversal(&ray_query, &gpu.info, wanted));
     start = turner_seconds();
     TURNER_TRY_DONE(turner_kernel_create(&kernel, ray_query, options));
     statistics->seconds_compile = turner_seconds() - start;

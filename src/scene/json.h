@@ -207,7 +207,8 @@ enum turner_result json_use_mesh(struct turner_mesh *mesh, struct json_reader *r
                                  const struct json_object *object);
 
 /* ---- the tables, for reading and for comparing scenes/schema.json with what is read ---- */
-extern const struct json_table json_table_scene, json_table_settings, json_table_camera;
+extern const struct json_table json_table_scene, json_table_settings, json_table_methods,
+    json_table_camera;
 extern const struct json_table json_tables_background[3], json_tables_light[3];
 extern const struct json_table json_table_medium, json_table_material, json_tables_pattern[2];
 extern const struct json_table json_table_mesh, json_tables_primitive[6];

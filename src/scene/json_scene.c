@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "scene/json.h"
+#include "scene/methods.h"
 #include "scene/readers.h"
 
 static const char *const shadings[] = {"phong", "energy_conserving", NULL};
@@ -25,8 +26,36 @@ static const struct json_key settings_keys[] = {
     JSON_KEY_CHOICE("transfer", false, SETTING(transfer), transfers),
     JSON_KEY("spd_rays", JSON_BOOLEAN, false, SETTING(spd_rays)),
     JSON_KEY("spd_grid", JSON_BOOLEAN, false, SETTING(spd_grid)),
+    JSON_KEY_ANY("methods", false),
 };
 const struct json_table json_table_settings = JSON_TABLE("settings", settings_keys);
+
+/* `depth` and `cutoff` have keys of their own above. */
+static const struct json_key methods_keys[] = {
+    JSON_KEY_ANY("sphere", false),         JSON_KEY_ANY("triangle", false),
+    JSON_KEY_ANY("offset", false),         JSON_KEY_ANY("fresnel_cosine", false),
+    JSON_KEY_ANY("fresnel", false),        JSON_KEY_ANY("schlick_side", false),
+    JSON_KEY_ANY("precision", false),      JSON_KEY_ANY("aa", false),
+    JSON_KEY_ANY("traversal", false),
+};
+const struct json_table json_table_methods = JSON_TABLE("methods", methods_keys);
+
+static enum turner_result read_methods(struct json_reader *reader, const struct json_value *value)
+{
+    struct turner_settings *settings = &reader->scene->settings;
+    struct json_object object;
+    TURNER_TRY(json_read_object(&object, NULL, reader, value, &json_table_methods));
+    for (size_t i = 0; i < object.table->count; i++) {
+        const char *name = object.table->keys[i].name, *text;
+        const struct json_value *member = json_member(&object, name);
+        if (!member)
+            continue;
+        TURNER_TRY(json_read_string(&text, reader, member));
+        if (turner_method_set(settings, name, text) != TURNER_OK)
+            return json_fail_within(reader, member);
+    }
+    return TURNER_OK;
+}
 
 static enum turner_result read_settings(struct json_reader *reader, const struct json_value *value)
 {
@@ -42,6 +71,9 @@ static enum turner_result read_settings(struct json_reader *reader, const struct
         TURNER_TRY(json_read_integer(&settings->width, reader, &width, range));
         TURNER_TRY(json_read_integer(&settings->height, reader, &height, range));
     }
+    const struct json_value *methods = json_member(&object, "methods");
+    if (methods)
+        TURNER_TRY(read_methods(reader, methods));
     const struct json_value *grid = json_member(&object, "spd_grid");
     if (settings->spd_grid && settings->height <= 2)
         return json_fail(reader, grid, "\"spd_grid\" needs a picture of at least 3 rows");

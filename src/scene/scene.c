@@ -30,6 +30,20 @@ struct turner_scene *turner_scene_create(void)
     return scene;
 }
 
+enum turner_fresnel turner_material_fresnel(const struct turner_settings *settings,
+                                            const struct turner_material *material)
+{
+    struct turner_vec3 k_t = material->k_t;
+    bool transmits = k_t.x > 0 || k_t.y > 0 || k_t.z > 0;
+    switch (transmits ? settings->methods.fresnel : TURNER_OVERRIDE_MATERIAL) {
+    case TURNER_OVERRIDE_MATERIAL: break;
+    case TURNER_OVERRIDE_NONE: return TURNER_FRESNEL_NONE;
+    case TURNER_OVERRIDE_SCHLICK: return TURNER_FRESNEL_SCHLICK;
+    case TURNER_OVERRIDE_EXACT: return TURNER_FRESNEL_EXACT;
+    }
+    return material->fresnel;
+}
+
 void turner_mesh_destroy(struct turner_mesh *mesh)
 {
     free(mesh->positions);

@@ -34,11 +34,47 @@ enum turner_shadows { TURNER_SHADOWS_OPAQUE, TURNER_SHADOWS_TINTED };
 enum turner_transfer { TURNER_TRANSFER_SRGB, TURNER_TRANSFER_LINEAR };
 enum turner_fresnel { TURNER_FRESNEL_NONE, TURNER_FRESNEL_SCHLICK, TURNER_FRESNEL_EXACT };
 
+/* Ways to compute the same thing; 0 is the default of each, the one that holds everywhere.
+ * src/scene/methods.c says what each is and where it comes from. */
+enum turner_sphere_method { TURNER_SPHERE_ROBUST, TURNER_SPHERE_TEXTBOOK, TURNER_SPHERE_F64 };
+enum turner_triangle_method { TURNER_TRIANGLE_WATERTIGHT, TURNER_TRIANGLE_MOLLER_TRUMBORE };
+enum turner_offset_method {
+    TURNER_OFFSET_ERROR_BOUND,
+    TURNER_OFFSET_NONE,
+    TURNER_OFFSET_TMIN,
+    TURNER_OFFSET_ULP
+};
+enum turner_cosine_method { TURNER_COSINE_STABLE, TURNER_COSINE_NAIVE };
+enum turner_schlick_side { TURNER_SCHLICK_TRANSMITTED, TURNER_SCHLICK_INCIDENT };
+enum turner_precision { TURNER_PRECISION_F32, TURNER_PRECISION_F64 };
+/* In place of what transmissive materials say. The reference honours it, and none of the others. */
+enum turner_fresnel_override {
+    TURNER_OVERRIDE_MATERIAL,
+    TURNER_OVERRIDE_NONE,
+    TURNER_OVERRIDE_SCHLICK,
+    TURNER_OVERRIDE_EXACT
+};
+
+struct turner_methods {
+    enum turner_sphere_method sphere;
+    enum turner_triangle_method triangle;
+    enum turner_offset_method offset;
+    double tmin; /* > 0, with TURNER_OFFSET_TMIN: metres from where secondary rays start */
+    enum turner_cosine_method fresnel_cosine;
+    enum turner_fresnel_override fresnel;
+    enum turner_schlick_side schlick_side;
+    enum turner_precision precision;
+    enum turner_traversal traversal;
+};
+
 struct turner_settings {
     int width, height;     /* 1 … TURNER_MAX_SIZE; default 640×480 */
     int depth;             /* max_depth, 0 … TURNER_MAX_DEPTH; default 8 */
     double cutoff;         /* ≥ 0; default 1/512; 0 switches it off */
     int spp;               /* samples per pixel, ≥ 1; default 1; pattern in docs/model.md */
+    double aa_threshold;   /* > 0: adaptive, a pixel gets up to spp samples where its corners and
+                              centre differ by more in a channel; 0: each gets spp */
+    struct turner_methods methods;
     enum turner_shading shading;   /* default energy_conserving */
     enum turner_shadows shadows;   /* default tinted */
     double exposure;       /* stops, for 8/16-bit output; default 0 */
@@ -190,6 +226,10 @@ struct turner_scene *turner_scene_create(void);
 /* Checks every statement above, finiteness of every number and every limit. The message names the
  * thing ("sphere 3 of group \"tree\": …") for formats that have no better place to point at. */
 enum turner_result turner_scene_validate(const struct turner_scene *scene);
+
+/* What `material` does at a boundary, with the override of the settings. */
+enum turner_fresnel turner_material_fresnel(const struct turner_settings *settings,
+                                            const struct turner_material *material);
 
 /* Triangles, spheres and cones of one group. */
 size_t turner_group_primitive_count(const struct turner_group *group);

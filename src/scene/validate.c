@@ -96,6 +96,11 @@ static enum turner_result check_settings(const struct turner_settings *s)
     CHECK(subject, usable(s->cutoff) && s->cutoff >= 0, "cutoff %g must be 0 or above", s->cutoff);
     CHECK(subject, s->spp >= 1 && s->spp <= TURNER_MAX_SPP, "spp %d is not between 1 and %d",
           s->spp, TURNER_MAX_SPP);
+    CHECK(subject, usable(s->aa_threshold) && s->aa_threshold >= 0,
+          "the threshold %g of adaptive samples must be 0 or above", s->aa_threshold);
+    CHECK(subject, s->methods.offset != TURNER_OFFSET_TMIN ||
+          (usable(s->methods.tmin) && s->methods.tmin > 0), "tmin %g must be above 0",
+          s->methods.tmin);
     CHECK(subject, s->shading == TURNER_SHADING_PHONG ||
           s->shading == TURNER_SHADING_ENERGY_CONSERVING, "unknown shading");
     CHECK(subject, s->shadows == TURNER_SHADOWS_OPAQUE || s->shadows == TURNER_SHADOWS_TINTED,

@@ -11,10 +11,10 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-extern struct turner_embedded_file __wrap_turner_embedded_files[];
-extern size_t __wrap_turner_embedded_file_count;
-struct turner_embedded_file __wrap_turner_embedded_files[FILES];
-size_t __wrap_turner_embedded_file_count;
+extern struct turner_embedded_file __wrap_turner_embedded_shaders[];
+extern size_t __wrap_turner_embedded_shaders_count;
+struct turner_embedded_file __wrap_turner_embedded_shaders[FILES];
+size_t __wrap_turner_embedded_shaders_count;
 
 static void require(int condition)
 {
@@ -45,15 +45,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     char *text = calloc(size + 1, 1);
     require(text != NULL);
     memcpy(text, data, size);
-    __wrap_turner_embedded_file_count = 0;
-    for (char *next = text; __wrap_turner_embedded_file_count < FILES;) {
+    __wrap_turner_embedded_shaders_count = 0;
+    for (char *next = text; __wrap_turner_embedded_shaders_count < FILES;) {
         next = strstr(next, separator);
         if (!next)
             break;
         next[1] = 0; /* the newline before it stays */
         next += sizeof separator - 1;
-        size_t i = __wrap_turner_embedded_file_count++;
-        __wrap_turner_embedded_files[i] = (struct turner_embedded_file){names[i], next};
+        size_t i = __wrap_turner_embedded_shaders_count++;
+        __wrap_turner_embedded_shaders[i] = (struct turner_embedded_file){names[i], next};
     }
 
     struct turner_shader_source source, again;

@@ -43,7 +43,7 @@ target_link_options(fuzz_json PRIVATE
 # Shader sources that include each other, held in memory.
 turner_fuzz_target(include ${turner_fuzz_folder}/fuzz_include.c LAYERS base gpu)
 target_link_options(fuzz_include PRIVATE
-    -Wl,--wrap=turner_embedded_files -Wl,--wrap=turner_embedded_file_count)
+    -Wl,--wrap=turner_embedded_shaders -Wl,--wrap=turner_embedded_shaders_count)
 
 # NFF scenes.
 turner_fuzz_target(nff ${turner_fuzz_folder}/fuzz_nff.c LAYERS base image scene)

@@ -29,7 +29,7 @@ endforeach()
 
 # The comparison is worth something: it tells any two goldens apart.
 add_executable(test_golden_pairs ${CMAKE_CURRENT_LIST_DIR}/test_golden_pairs.c
-    ${PROJECT_SOURCE_DIR}/src/app/cmd_compare.c ${PROJECT_SOURCE_DIR}/src/app/compare_flip.c
+    ${PROJECT_SOURCE_DIR}/src/app/cmd_compare.c ${PROJECT_SOURCE_DIR}/src/app/compare_flip.c ${PROJECT_SOURCE_DIR}/src/app/process.c
     ${PROJECT_SOURCE_DIR}/src/app/options.c)
 target_link_libraries(test_golden_pairs PRIVATE turner_flags PkgConfig::CMOCKA PkgConfig::CJSON
     turner_base turner_image ${turner_image_libraries})

@@ -142,7 +142,7 @@ static void folders_in_order_then_built_in(void **state)
     turner_shader_source_destroy(&source);
 
     /* shared.h is among the copies unless a folder has one */
-    assert_true(turner_embedded_file_count > 0);
+    assert_true(turner_embedded_shaders_count > 0);
     assert_ok(turner_shader_source_create(&source, "shared.h", both, 2));
     assert_true(source.files[0].embedded);
     assert_string_equal(source.files[0].path, "built-in/shared.h");
@@ -157,20 +157,20 @@ static void folders_in_order_then_built_in(void **state)
 static void copies_are_exact(void **state)
 {
     (void)state;
-    for (size_t i = 0; i < turner_embedded_file_count; i++) {
+    for (size_t i = 0; i < turner_embedded_shaders_count; i++) {
         char path[1024];
         snprintf(path, sizeof path, "%s/shaders/%s", TURNER_SOURCE_DIR,
-                 turner_embedded_files[i].name);
+                 turner_embedded_shaders[i].name);
         FILE *file = fopen(path, "rb");
         assert_non_null(file);
-        size_t length = strlen(turner_embedded_files[i].text);
+        size_t length = strlen(turner_embedded_shaders[i].text);
         char *text = calloc(1, length + 2);
         assert_int_equal(fread(text, 1, length + 1, file), length);
-        assert_string_equal(text, turner_embedded_files[i].text);
+        assert_string_equal(text, turner_embedded_shaders[i].text);
         free(text);
         fclose(file);
         if (i)
-            assert_true(strcmp(turner_embedded_files[i - 1].name, turner_embedded_files[i].name) <
+            assert_true(strcmp(turner_embedded_shaders[i - 1].name, turner_embedded_shaders[i].name) <
                         0);
     }
 }

@@ -5,7 +5,7 @@ endforeach()
 turner_unit_test(cmd_compare ${CMAKE_CURRENT_LIST_DIR}/test_cmd_compare.c LAYERS base image
                  LIBRARIES PkgConfig::CJSON)
 target_sources(test_cmd_compare PRIVATE ${PROJECT_SOURCE_DIR}/src/app/cmd_compare.c
-                                        ${PROJECT_SOURCE_DIR}/src/app/compare_flip.c
+                                        ${PROJECT_SOURCE_DIR}/src/app/compare_flip.c ${PROJECT_SOURCE_DIR}/src/app/process.c
                                         ${PROJECT_SOURCE_DIR}/src/app/options.c)
 
 # The CTest function, with a stand-in for "turner render".

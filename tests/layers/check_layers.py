@@ -18,7 +18,7 @@ SEES_SHADERS = {"app", "view", "render", "gpu", "bvh"}
 SEES_VULKAN = {"view", "render", "gpu"}
 SOURCE_FOLDERS = ["src", "shaders", "tests", "tools"]
 TEXT_FOLDERS = SOURCE_FOLDERS + ["cmake", "docs", "scenes", ".ci", "."]
-SKIPPED_FOLDERS = {"build", ".git", "corpus", "__pycache__"}
+SKIPPED = {"build", ".git", "corpus", "__pycache__"}
 MAX_LINES = 800
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -31,8 +31,8 @@ def files(root, folders):
     """Paths relative to root of the text files under the folders ("." means root itself only)."""
     for folder in folders:
         for path, subfolders, names in os.walk(os.path.join(root, folder)):
-            subfolders[:] = sorted(set(subfolders) - SKIPPED_FOLDERS) if folder != "." else []
-            for name in sorted(names):
+            subfolders[:] = sorted(set(subfolders) - SKIPPED) if folder != "." else []
+            for name in sorted(set(names) - SKIPPED):
                 yield os.path.normpath(os.path.relpath(os.path.join(path, name), root))
 
 

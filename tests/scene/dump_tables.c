@@ -60,6 +60,7 @@ int main(int argc, char **argv)
     cJSON *out = cJSON_CreateObject();
     dump_tables(out, &json_table_scene, 1);
     dump_tables(out, &json_table_settings, 1);
+    dump_tables(out, &json_table_methods, 1);
     dump_tables(out, &json_table_camera, 1);
     dump_tables(out, json_tables_background, 3);
     dump_tables(out, &json_table_medium, 1);

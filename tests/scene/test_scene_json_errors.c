@@ -227,7 +227,7 @@ static void settings(void **state)
          "unknown key \"Depth\", did you mean \"depth\"? (at $.settings.Depth)"},
         {SETTINGS("@\"a\\u001bb\\nc\": 3"),
          "unknown key \"a?b?c\"; known for settings: \"size\", \"depth\", \"cutoff\", \"spp\", "
-         "\"shading\", \"shadows\", \"exposure\", \"transfer\", \"spd_rays\", \"spd_grid\" (at "
+         "\"shading\", \"shadows\", \"exposure\", \"transfer\", \"spd_rays\", \"spd_grid\", \"methods\" (at "
          "$.settings[\"a?b?c\"])"},
     };
     CHECK_CASES(cases);
