@@ -26,6 +26,16 @@ enum turner_result turner_reference_render(struct turner_image *image,
                                            struct turner_reference_statistics *statistics,
                                            turner_progress progress, void *user);
 
+/* The same with other sample positions: in each pixel the whole pattern is shifted, and what leaves
+ * the pixel comes in on its other side, by an amount that `pattern` and the pixel decide (Cranley
+ * and Patterson 1976). Pictures of different patterns are independent estimates of the same truth.
+ * 0: not shifted. */
+enum turner_result turner_reference_render_pattern(struct turner_image *image,
+                                                   const struct turner_scene *scene,
+                                                   uint32_t pattern, int threads,
+                                                   struct turner_reference_statistics *statistics,
+                                                   turner_progress progress, void *user);
+
 /* Radiance along one ray from `origin` (outside all media but camera.inside), in double: for
  * tests. `direction` need not be unit. */
 enum turner_result turner_reference_radiance(struct turner_vec3 *radiance, double *pruned,

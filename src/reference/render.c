@@ -1,5 +1,6 @@
 #include "reference/reference.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -38,12 +39,41 @@ static turner_vector view_direction(const struct view *view, turner_real px, tur
     return normalize(sub(add(scale(view->u, x), scale(view->v, y)), view->w));
 }
 
+/* ---- sample positions ---- */
+
+/* 64 bits that look like chance: the step of splitmix64 (Steele, Lea and Flood, OOPSLA 2014). */
+static uint64_t scramble(uint64_t state)
+{
+    state += 0x9e3779b97f4a7c15u;
+    state = (state ^ state >> 30) * 0xbf58476d1ce4e5b9u;
+    state = (state ^ state >> 27) * 0x94d049bb133111ebu;
+    return state ^ state >> 31;
+}
+
+struct shift {
+    double x, y; /* [0,1) */
+};
+
+static struct shift shift_of(uint32_t pattern, int column, int row)
+{
+    if (pattern == 0)
+        return (struct shift){0, 0};
+    uint64_t bits = scramble(scramble(pattern) ^ ((uint64_t)row << 32 | (uint64_t)column));
+    return (struct shift){(double)(bits >> 32) * 0x1p-32, (double)(bits & UINT32_MAX) * 0x1p-32};
+}
+
+static double wrap(double position)
+{
+    return position - floor(position);
+}
+
 /* ---- work shared between threads ---- */
 
 struct job {
     const struct turner_world *world;
     struct turner_image *image;
     struct view view;
+    uint32_t pattern;
     atomic_int next_row;
     atomic_bool stop;
     pthread_mutex_t mutex; /* guards what follows */
@@ -57,12 +87,13 @@ static void render_row(struct job *job, struct turner_tracer *tracer, int row)
     const struct turner_settings *settings = &job->world->scene->settings;
     for (int column = 0; column < settings->width; column++) {
         turner_vector sum = grey(0);
+        struct shift shift = shift_of(job->pattern, column, row);
         tracer->pruned = 0;
         for (int i = 0; i < settings->spp; i++) {
             double sx, sy;
             turner_sample_position(&sx, &sy, i, settings->spp);
-            turner_vector d = view_direction(&job->view, column + (turner_real)sx,
-                                             row + (turner_real)sy);
+            turner_vector d = view_direction(&job->view, column + (turner_real)wrap(sx + shift.x),
+                                             row + (turner_real)wrap(sy + shift.y));
             sum = add(sum, turner_trace_camera(tracer, job->view.from, d));
         }
         float *rgba = job->image->rgba + 4 * ((size_t)row * (size_t)settings->width +
@@ -157,6 +188,15 @@ enum turner_result turner_reference_render(struct turner_image *image,
                                            struct turner_reference_statistics *statistics,
                                            turner_progress progress, void *user)
 {
+    return turner_reference_render_pattern(image, scene, 0, threads, statistics, progress, user);
+}
+
+enum turner_result turner_reference_render_pattern(struct turner_image *image,
+                                                   const struct turner_scene *scene,
+                                                   uint32_t pattern, int threads,
+                                                   struct turner_reference_statistics *statistics,
+                                                   turner_progress progress, void *user)
+{
     struct turner_world world = {0};
     pthread_t *handles = NULL;
     enum turner_result result = TURNER_OK;
@@ -165,7 +205,8 @@ enum turner_result turner_reference_render(struct turner_image *image,
     TURNER_TRY_DONE(turner_world_create(&world, scene));
     TURNER_TRY_DONE(turner_image_create(image, scene->settings.width, scene->settings.height));
 
-    struct job job = {.world = &world, .image = image, .view = view_of(scene)};
+    struct job job = {
+        .world = &world, .image = image, .view = view_of(scene), .pattern = pattern};
     threads = thread_count(threads, image->height);
     handles = turner_calloc((size_t)threads, sizeof *handles);
     pthread_mutex_init(&job.mutex, NULL);
