@@ -11,6 +11,7 @@ enum turner_result turner_cmd_compare(int argc, char **argv);
 enum turner_result turner_cmd_check(int argc, char **argv);
 enum turner_result turner_cmd_devices(int argc, char **argv);
 enum turner_result turner_cmd_params(int argc, char **argv);
+enum turner_result turner_cmd_export(int argc, char **argv);
 
 /* What a subcommand says of an option getopt_long did not understand: TURNER_USAGE naming the
  * nearest way out ("turner render --help"). `argv[optind-1]` is the culprit. */

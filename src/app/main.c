@@ -16,6 +16,7 @@ static const struct {
     {"compare", "say how much two pictures differ", turner_cmd_compare},
     {"check", "read scenes or shaders and say what is wrong with them", turner_cmd_check},
     {"params", "list the methods that can be chosen, and where they come from", turner_cmd_params},
+    {"export", "write a scene for POV-Ray, a second opinion", turner_cmd_export},
     {"devices", "list the devices and what each can do", turner_cmd_devices},
 };
 enum { command_count = sizeof commands / sizeof *commands };
