@@ -51,6 +51,34 @@ struct turner_scene;
 enum turner_result turner_scene_load(struct turner_scene **scene, const char *path);
 void turner_scene_destroy(struct turner_scene *scene);
 
+/* ---- Layers: what is known of each pixel besides its colour (docs/layers.md) ---- */
+enum turner_layer {
+    TURNER_LAYER_ERROR,     /* real: estimate of the largest error of a channel, radiance */
+    TURNER_LAYER_PRUNED,    /* real: weight of the rays that were cut, mean of the samples */
+    TURNER_LAYER_SAMPLES,   /* whole */
+    TURNER_LAYER_RAYS,      /* whole: rays traced for all its samples, shadow rays too */
+    TURNER_LAYER_RECURSION, /* whole: deepest recursion of a ray that was followed, camera 0 */
+    TURNER_LAYER_NONFINITE, /* whole: 1 where a colour or pruned is not finite, else 0 */
+    /* Of what the ray through the pixel's centre meets: */
+    TURNER_LAYER_DEPTH,    /* real: metres along the ray; infinite for the background */
+    TURNER_LAYER_NORMAL,   /* 3 real: unit shading normal, world, towards the eye; or 0 0 0 */
+    TURNER_LAYER_ALBEDO,   /* 3 real: k_d with its pattern; background 0 */
+    TURNER_LAYER_POSITION, /* 3 real: metres, world; background 0 */
+    TURNER_LAYER_ID,       /* whole: which primitive of which instance; background 0 */
+    TURNER_LAYERS
+};
+
+/* Layers of one picture. Set `wanted`, the sum of 1u << TURNER_LAYER_…, leave the rest 0, and point
+ * turner_render_options at it: turner_render fills it. Row 0 is at the top; each wanted layer has
+ * its plane in `real` or in `whole`, all other pointers are NULL. */
+struct turner_layers {
+    uint32_t wanted;
+    int width, height;
+    float *real[TURNER_LAYERS];     /* width × height × 1 or 3 floats */
+    uint32_t *whole[TURNER_LAYERS]; /* width × height */
+};
+void turner_layers_destroy(struct turner_layers *layers); /* keeps `wanted` */
+
 /* ---- Rendering ---- */
 enum turner_traversal { TURNER_TRAVERSAL_AUTO, TURNER_TRAVERSAL_BVH, TURNER_TRAVERSAL_RAY_QUERY };
 
@@ -64,6 +92,8 @@ struct turner_render_options {
     int tile;            /* pixels, width and height of what is traced at once; 0 adapts to time */
     int threads;         /* of the reference; 0 one per core */
     bool unspecialised;  /* everything in the kernel, needed or not: same picture, slower */
+    struct turner_layers *layers; /* NULL, or what to fill beside the picture; the caller destroys
+                                     it, also after a failure */
     /* Called with the share done in [0,1]; false ends the rendering (TURNER_INTERRUPTED). */
     bool (*progress)(double share, void *user);
     void *user;

@@ -6,6 +6,7 @@
 #include "app/app.h"
 #include "image/atomic.h"
 #include "image/image.h"
+#include "render/layers.h"
 #include "render/renderer.h"
 #include "scene/methods.h"
 
@@ -26,6 +27,12 @@ static void print_help(void)
          "      --shadows KIND     opaque | tinted\n"
          "      --exposure STOPS   for .png .jpg .ppm: brighter by 2 to the power of it\n"
          "      --transfer CURVE   for .png .jpg .ppm: srgb | linear\n"
+         "      --aov LAYERS       what else is known of each pixel, as layers of an .exr: a list with\n"
+         "                         commas, or all (docs/layers.md):\n"
+         "                           normal albedo position id   of the surface at the pixel's centre\n"
+         "                           depth      metres along the ray to it, from the eye\n"
+         "                           recursion  how deep reflection and refraction went\n"
+         "                           rays samples pruned error nonfinite\n"
          "      --spd-rays, --spd-grid   count rays as the Standard Procedural Databases do\n\n"
          "  -d, --device D         index or part of the name (turner devices), or reference:\n"
          "                         extended precision on the CPU, slow, the truth to compare with\n"
@@ -38,7 +45,9 @@ static void print_help(void)
          "      --print-settings   print the settings as they will be used, and stop\n"
          "  -q, --quiet            no progress bar, no summary, no warnings\n"
          "  -h, --help             this text\n\n"
-         "Example: turner render scenes/prism.json -o prism.png --size 1280x720 --spp 16");
+         "Examples:\n"
+         "  turner render scenes/prism.json -o prism.png --size 1280x720 --spp 16\n"
+         "  turner render scenes/prism.json -o prism.exr --aov normal,depth,rays");
 }
 
 #define MAX_SHADER_DIRS 16
@@ -52,13 +61,14 @@ struct arguments {
     const char *shader_dirs[MAX_SHADER_DIRS];
     const char *methods[MAX_METHODS]; /* "name=value", later ones win */
     size_t method_count;
+    struct turner_layers layers;
     struct turner_render_options render;
 };
 
 enum { OPTION_SIZE = 256, OPTION_DEPTH, OPTION_CUTOFF, OPTION_SPP, OPTION_SHADING, OPTION_SHADOWS,
        OPTION_EXPOSURE, OPTION_TRANSFER, OPTION_SPD_RAYS, OPTION_SPD_GRID, OPTION_TRAVERSAL,
        OPTION_SHADER_DIR, OPTION_TILE, OPTION_THREADS, OPTION_UNSPECIALISED, OPTION_STATS,
-       OPTION_PRINT_SETTINGS };
+       OPTION_PRINT_SETTINGS, OPTION_AOV };
 
 static const struct option long_options[] = {
     {"output", required_argument, NULL, 'o'},
@@ -71,6 +81,7 @@ static const struct option long_options[] = {
     {"shadows", required_argument, NULL, OPTION_SHADOWS},
     {"exposure", required_argument, NULL, OPTION_EXPOSURE},
     {"transfer", required_argument, NULL, OPTION_TRANSFER},
+    {"aov", required_argument, NULL, OPTION_AOV},
     {"spd-rays", no_argument, NULL, OPTION_SPD_RAYS},
     {"spd-grid", no_argument, NULL, OPTION_SPD_GRID},
     {"device", required_argument, NULL, 'd'},
@@ -111,6 +122,7 @@ static enum turner_result take(struct arguments *a, int option, char **argv)
         return turner_option_real(&a->exposure, "--exposure", optarg, -64, 64);
     case OPTION_TRANSFER:
         return turner_option_choice(&a->transfer, "--transfer", optarg, transfers);
+    case OPTION_AOV: return turner_layers_parse(&a->layers.wanted, optarg);
     case OPTION_SPD_RAYS: a->spd_rays = true; return TURNER_OK;
     case OPTION_SPD_GRID: a->spd_grid = true; return TURNER_OK;
     case OPTION_TRAVERSAL:
@@ -171,11 +183,14 @@ static enum turner_result write_picture(const struct arguments *a,
         {"turner:traversal", statistics->traversal},
         {"turner:settings", settings},
     };
+    struct turner_image_channel channels[TURNER_LAYER_CHANNELS];
     struct turner_image_encoding encoding = {
         .exposure = scene->settings.exposure,
         .linear = scene->settings.transfer == TURNER_TRANSFER_LINEAR,
         .texts = texts,
         .text_count = sizeof texts / sizeof *texts,
+        .channels = channels,
+        .channel_count = turner_layers_channels(channels, &a->layers),
     };
     double start = turner_seconds();
     enum turner_result result = turner_image_write(image, a->output, &encoding);
@@ -205,6 +220,7 @@ static enum turner_result render(struct arguments *a, struct turner_scene *scene
     a->render.shader_dirs = a->shader_dirs;
     a->render.progress = turner_progress_show;
     a->render.user = &bar;
+    a->render.layers = a->layers.wanted ? &a->layers : NULL;
     result = turner_render(&image, scene, &a->render, statistics);
     turner_progress_end(&bar);
     if (result != TURNER_OK)
@@ -216,6 +232,7 @@ static enum turner_result render(struct arguments *a, struct turner_scene *scene
         print_summary(a, statistics);
 done:
     turner_image_destroy(&image);
+    turner_layers_destroy(&a->layers);
     return result;
 }
 
@@ -237,6 +254,8 @@ enum turner_result turner_cmd_render(int argc, char **argv)
     turner_set_quiet(a.quiet);
     if (!a.output && !a.print_settings)
         return turner_fail(TURNER_USAGE, "say where the picture goes: -o picture.png");
+    if (a.output && a.layers.wanted)
+        TURNER_TRY(turner_image_check_channels(a.output));
     if (a.output)
         TURNER_TRY(turner_image_check_writable(a.output));
     if (a.stats && strcmp(a.stats, "-") != 0)

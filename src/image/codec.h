@@ -12,19 +12,25 @@ struct turner_format {
     const char *codec;  /* OpenImageIO's name of the format */
     enum turner_sample sample;
     bool nonfinite; /* the format can hold NaN and infinity */
+    bool channels;  /* it can hold more than RGB, each of a type of its own */
 };
 
 /* The format for the ending of `path`; NULL and TURNER_USAGE's message when there is none. */
 const struct turner_format *turner_format_find(const char *path);
+
+/* Rows `row` … `row` + `rows` − 1 with the channels of `encoding` behind RGB, for formats that have
+ * room for them: rows × width × (3 + channel_count) words of 4 bytes, floats or whole numbers. */
+void turner_format_pack_rows(uint32_t *words, const struct turner_image *image,
+                             const struct turner_image_encoding *encoding, int row, int rows);
 
 /* width × height × 3 samples as turner_format says, owned by the caller (free). Applies exposure,
  * curve and rounding to integer formats. */
 void *turner_format_pack(const struct turner_format *format, const struct turner_image *image,
                          const struct turner_image_encoding *encoding);
 
-/* Encodes `samples` (turner_format_pack) in memory and writes them with turner_atomic_write. */
+/* Encodes `image` in memory and writes it with turner_atomic_write. */
 enum turner_result turner_codec_write(const char *path, const struct turner_format *format,
-                                      const void *samples, int width, int height,
+                                      const struct turner_image *image,
                                       const struct turner_image_encoding *encoding);
 
 /* Creates `image` and reads the first `*channels` ≤ 3 channels into its pixels; the channels beyond

@@ -23,11 +23,15 @@ double turner_linear_to_srgb(double v)
 
 /* Longer endings first. */
 static const struct turner_format formats[] = {
-    {".16.png", "png", TURNER_SAMPLE_U16, false},  {".png", "png", TURNER_SAMPLE_U8, false},
-    {".exr", "openexr", TURNER_SAMPLE_FLOAT, true}, {".hdr", "hdr", TURNER_SAMPLE_FLOAT, false},
-    {".tif", "tiff", TURNER_SAMPLE_FLOAT, true},   {".tiff", "tiff", TURNER_SAMPLE_FLOAT, true},
-    {".jpg", "jpeg", TURNER_SAMPLE_U8, false},     {".jpeg", "jpeg", TURNER_SAMPLE_U8, false},
-    {".ppm", "pnm", TURNER_SAMPLE_U8, false},
+    {".16.png", "png", TURNER_SAMPLE_U16, false, false},
+    {".png", "png", TURNER_SAMPLE_U8, false, false},
+    {".exr", "openexr", TURNER_SAMPLE_FLOAT, true, true},
+    {".hdr", "hdr", TURNER_SAMPLE_FLOAT, false, false},
+    {".tif", "tiff", TURNER_SAMPLE_FLOAT, true, false},
+    {".tiff", "tiff", TURNER_SAMPLE_FLOAT, true, false},
+    {".jpg", "jpeg", TURNER_SAMPLE_U8, false, false},
+    {".jpeg", "jpeg", TURNER_SAMPLE_U8, false, false},
+    {".ppm", "pnm", TURNER_SAMPLE_U8, false, false},
 };
 
 const struct turner_format *turner_format_find(const char *path)
@@ -79,17 +83,42 @@ void *turner_format_pack(const struct turner_format *format, const struct turner
     return samples;
 }
 
+void turner_format_pack_rows(uint32_t *words, const struct turner_image *image,
+                             const struct turner_image_encoding *encoding, int row, int rows)
+{
+    size_t first = (size_t)row * (size_t)image->width;
+    size_t count = (size_t)rows * (size_t)image->width;
+    for (size_t i = first; i < first + count; i++) {
+        memcpy(words, image->rgba + 4 * i, 3 * sizeof *words);
+        words += 3;
+        for (size_t c = 0; c < encoding->channel_count; c++) {
+            const struct turner_image_channel *channel = &encoding->channels[c];
+            memcpy(words++, (const uint32_t *)channel->values + i * channel->stride,
+                   sizeof *words);
+        }
+    }
+}
+
+enum turner_result turner_image_check_channels(const char *path)
+{
+    const struct turner_format *format = turner_format_find(path);
+    if (!format)
+        return TURNER_USAGE;
+    return format->channels ? TURNER_OK
+                            : turner_fail(TURNER_USAGE,
+                                          "%s: layers can only be written to OpenEXR; let the "
+                                          "picture's name end in .exr, or ask for no layers", path);
+}
+
 enum turner_result turner_image_write(const struct turner_image *image, const char *path,
                                       const struct turner_image_encoding *encoding)
 {
     const struct turner_format *format = turner_format_find(path);
     if (!format)
         return TURNER_USAGE;
-    void *samples = turner_format_pack(format, image, encoding);
-    enum turner_result result =
-        turner_codec_write(path, format, samples, image->width, image->height, encoding);
-    free(samples);
-    return result;
+    if (encoding->channel_count)
+        TURNER_TRY(turner_image_check_channels(path));
+    return turner_codec_write(path, format, image, encoding);
 }
 
 enum turner_result turner_image_check_writable(const char *path)

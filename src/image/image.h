@@ -10,11 +10,22 @@ struct turner_image_text {
     const char *key, *value;
 };
 
+/* A channel beside RGB, of as many pixels as the picture: pixel i has values[i * stride], floats
+ * or, when `whole`, uint32_t. */
+struct turner_image_channel {
+    char name[32]; /* "layer.channel" */
+    const void *values;
+    size_t stride;
+    bool whole;
+};
+
 struct turner_image_encoding {
     double exposure; /* stops; 8/16-bit formats only */
     bool linear;     /* 8/16-bit formats: no sRGB curve */
     const struct turner_image_text *texts;
     size_t text_count;
+    const struct turner_image_channel *channels; /* EXR only */
+    size_t channel_count;
 };
 
 /* Writes RGB; the ending (in either case) says the format: .exr .tif .tiff (float, linear), .hdr
@@ -24,9 +35,14 @@ struct turner_image_encoding {
  * Texts go into EXR (attributes), PNG (text chunks) and TIFF (lines "key: value" of the
  * ImageDescription); the other formats have no place for them.
  * Non-finite values are written as they are to EXR and TIFF and as 0 to the others.
- * TURNER_OUTPUT with the reason and what to do, TURNER_USAGE for an unknown ending. */
+ * TURNER_OUTPUT with the reason and what to do, TURNER_USAGE for an unknown ending, or for channels
+ * in another format than EXR. */
 enum turner_result turner_image_write(const struct turner_image *image, const char *path,
                                       const struct turner_image_encoding *encoding);
+
+/* Whether the ending of `path` says a format that has room for channels beside RGB; TURNER_USAGE
+ * when not. */
+enum turner_result turner_image_check_channels(const char *path);
 
 /* Fails as turner_image_write would, before any work is done: unknown ending, folder missing or
  * not writable, path is a folder or another thing that is no ordinary file. Tries it out by making

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <memory>
@@ -50,6 +51,16 @@ OIIO::ImageSpec describe(const struct turner_format *format, int width, int heig
                          const struct turner_image_encoding *encoding)
 {
     OIIO::ImageSpec spec(width, height, 3, type_of(format->sample));
+    if (encoding->channel_count) {
+        spec.nchannels += int(encoding->channel_count);
+        spec.channelformats.assign(3, spec.format);
+    }
+    for (size_t i = 0; i < encoding->channel_count; i++) {
+        const struct turner_image_channel &channel = encoding->channels[i];
+        spec.channelnames.push_back(channel.name);
+        spec.channelformats.push_back(channel.whole ? OIIO::TypeDesc(OIIO::TypeDesc::UINT32)
+                                                    : spec.format);
+    }
     spec.attribute("DateTime", ""); /* or EXR and TIFF would get the time of writing */
     if (format->sample != TURNER_SAMPLE_FLOAT && !encoding->linear)
         spec.attribute("oiio:ColorSpace", "sRGB");
@@ -70,8 +81,32 @@ OIIO::ImageSpec describe(const struct turner_format *format, int width, int heig
     return spec;
 }
 
+/* Has no error of its own: what failed is with `output`. */
+bool write_plain(OIIO::ImageOutput *output, const struct turner_format *format,
+                 const struct turner_image *image, const struct turner_image_encoding *encoding)
+{
+    std::unique_ptr<void, decltype(&std::free)> samples(
+        turner_format_pack(format, image, encoding), std::free);
+    return output->write_image(type_of(format->sample), samples.get());
+}
+
+/* A few rows at a time: with every layer, all of them would take several times the picture. */
+bool write_with_channels(OIIO::ImageOutput *output, const struct turner_image *image,
+                         const struct turner_image_encoding *encoding)
+{
+    const int rows = 64; /* a multiple of the lines that OpenEXR compresses together */
+    std::vector<uint32_t> words(size_t(rows) * image->width * (3 + encoding->channel_count));
+    for (int row = 0; row < image->height; row += rows) {
+        int count = std::min(rows, image->height - row);
+        turner_format_pack_rows(words.data(), image, encoding, row, count);
+        if (!output->write_scanlines(row, row + count, 0, OIIO::TypeDesc::UNKNOWN, words.data()))
+            return false;
+    }
+    return true;
+}
+
 enum turner_result write_picture(const char *path, const struct turner_format *format,
-                                 const void *samples, int width, int height,
+                                 const struct turner_image *image,
                                  const struct turner_image_encoding *encoding)
 {
     start();
@@ -82,8 +117,11 @@ enum turner_result write_picture(const char *path, const struct turner_format *f
                                           "another ending", path, format->codec);
     }
     /* no has_error here: every TIFF, good as it is, leaves a complaint about its Exif directory */
-    if (!output->open(path, describe(format, width, height, encoding)) ||
-        !output->write_image(type_of(format->sample), samples) || !output->close()) {
+    bool written = output->open(path, describe(format, image->width, image->height, encoding)) &&
+                   (encoding->channel_count ? write_with_channels(output.get(), image, encoding)
+                                            : write_plain(output.get(), format, image, encoding)) &&
+                   output->close();
+    if (!written) {
         return turner_fail(TURNER_OUTPUT, "cannot write %s: %s; use another ending", path,
                            reason(output->geterror()).c_str());
     }
@@ -134,11 +172,11 @@ enum turner_result read_picture(struct turner_image *image, const char *path, in
 
 extern "C" enum turner_result turner_codec_write(const char *path,
                                                  const struct turner_format *format,
-                                                 const void *samples, int width, int height,
+                                                 const struct turner_image *image,
                                                  const struct turner_image_encoding *encoding)
 {
     try {
-        return write_picture(path, format, samples, width, height, encoding);
+        return write_picture(path, format, image, encoding);
     } catch (const std::exception &error) {
         return turner_fail(TURNER_OUTPUT, "cannot write %s: %s; use another ending", path,
                            reason(error.what()).c_str());

@@ -36,6 +36,15 @@ enum turner_result turner_reference_render_pattern(struct turner_image *image,
                                                    struct turner_reference_statistics *statistics,
                                                    turner_progress progress, void *user);
 
+/* As turner_reference_render, and fills what `layers` holds planes for (turner_layers in turner.h; its size is the
+ * picture's): rays, recursion, and what the ray through each pixel's centre meets. `layers` may be
+ * NULL. */
+enum turner_result turner_reference_render_layers(struct turner_image *image,
+                                                  struct turner_layers *layers,
+                                                  const struct turner_scene *scene, int threads,
+                                                  struct turner_reference_statistics *statistics,
+                                                  turner_progress progress, void *user);
+
 /* Radiance along one ray from `origin` (outside all media but camera.inside), in double: for
  * tests. `direction` need not be unit. */
 enum turner_result turner_reference_radiance(struct turner_vec3 *radiance, double *pruned,

@@ -72,6 +72,8 @@ static double wrap(double position)
 struct job {
     const struct turner_world *world;
     struct turner_image *image;
+    struct turner_layers *layers; /* or NULL */
+    const uint32_t *first_ids;    /* turner_scene_first_ids, when ids are wanted */
     struct view view;
     uint32_t pattern;
     atomic_int next_row;
@@ -82,13 +84,66 @@ struct job {
     struct turner_reference_statistics statistics;
 };
 
+static void put(float *plane, size_t pixel, turner_vector v)
+{
+    if (!plane)
+        return;
+    plane[3 * pixel] = (float)v.x;
+    plane[3 * pixel + 1] = (float)v.y;
+    plane[3 * pixel + 2] = (float)v.z;
+}
+
+static uint32_t id_of(const struct job *job, const struct turner_place *place)
+{
+    return place->instance == TURNER_INSTANCE_PLANES
+               ? 1 + place->primitive
+               : job->first_ids[place->instance] + place->primitive;
+}
+
+/* The layers that the ray through the pixel's centre decides. */
+static void fill_center(const struct job *job, int column, int row, size_t pixel)
+{
+    const struct turner_layers *layers = job->layers;
+    struct turner_first_hit first;
+    turner_vector d = view_direction(&job->view, column + 0.5L, row + 0.5L);
+    bool found = turner_trace_first_hit(&first, job->world, job->view.from, d);
+    if (layers->real[TURNER_LAYER_DEPTH])
+        layers->real[TURNER_LAYER_DEPTH][pixel] = found ? (float)first.depth : INFINITY;
+    if (!found)
+        return;
+    put(layers->real[TURNER_LAYER_NORMAL], pixel, first.normal);
+    put(layers->real[TURNER_LAYER_ALBEDO], pixel, first.albedo);
+    put(layers->real[TURNER_LAYER_POSITION], pixel, first.position);
+    if (layers->whole[TURNER_LAYER_ID])
+        layers->whole[TURNER_LAYER_ID][pixel] = id_of(job, &first.place);
+}
+
+static uint64_t rays_of(const struct turner_reference_statistics *s)
+{
+    return s->camera_rays + s->reflected_rays + s->refracted_rays + s->shadow_rays;
+}
+
+/* The layers that count the pixel's rays: `before` is from before the first of them. */
+static void fill_counts(const struct job *job, const struct turner_reference_statistics *before,
+                        const struct turner_reference_statistics *now, size_t pixel)
+{
+    uint64_t rays = rays_of(now) - rays_of(before);
+    uint32_t *const *whole = job->layers->whole;
+    if (whole[TURNER_LAYER_RAYS])
+        whole[TURNER_LAYER_RAYS][pixel] = rays < UINT32_MAX ? (uint32_t)rays : UINT32_MAX;
+    if (whole[TURNER_LAYER_RECURSION])
+        whole[TURNER_LAYER_RECURSION][pixel] = (uint32_t)now->largest_depth;
+}
+
 static void render_row(struct job *job, struct turner_tracer *tracer, int row)
 {
     const struct turner_settings *settings = &job->world->scene->settings;
     for (int column = 0; column < settings->width; column++) {
         turner_vector sum = grey(0);
         struct shift shift = shift_of(job->pattern, column, row);
+        struct turner_reference_statistics before = tracer->statistics;
         tracer->pruned = 0;
+        tracer->statistics.largest_depth = 0;
         for (int i = 0; i < settings->spp; i++) {
             double sx, sy;
             turner_sample_position(&sx, &sy, i, settings->spp);
@@ -96,12 +151,18 @@ static void render_row(struct job *job, struct turner_tracer *tracer, int row)
                                              row + (turner_real)wrap(sy + shift.y));
             sum = add(sum, turner_trace_camera(tracer, job->view.from, d));
         }
-        float *rgba = job->image->rgba + 4 * ((size_t)row * (size_t)settings->width +
-                                              (size_t)column);
+        size_t pixel = (size_t)row * (size_t)settings->width + (size_t)column;
+        float *rgba = job->image->rgba + 4 * pixel;
         rgba[0] = (float)(sum.x / settings->spp);
         rgba[1] = (float)(sum.y / settings->spp);
         rgba[2] = (float)(sum.z / settings->spp);
         rgba[3] = (float)(tracer->pruned / settings->spp);
+        if (job->layers) {
+            fill_center(job, column, row, pixel);
+            fill_counts(job, &before, &tracer->statistics, pixel);
+        }
+        if (before.largest_depth > tracer->statistics.largest_depth)
+            tracer->statistics.largest_depth = before.largest_depth;
     }
 }
 
@@ -183,30 +244,24 @@ static int thread_count(int asked, int rows)
     return count < rows ? count : rows;
 }
 
-enum turner_result turner_reference_render(struct turner_image *image,
-                                           const struct turner_scene *scene, int threads,
-                                           struct turner_reference_statistics *statistics,
-                                           turner_progress progress, void *user)
-{
-    return turner_reference_render_pattern(image, scene, 0, threads, statistics, progress, user);
-}
-
-enum turner_result turner_reference_render_pattern(struct turner_image *image,
-                                                   const struct turner_scene *scene,
-                                                   uint32_t pattern, int threads,
-                                                   struct turner_reference_statistics *statistics,
-                                                   turner_progress progress, void *user)
+static enum turner_result render(struct turner_image *image, struct turner_layers *layers,
+                                 const struct turner_scene *scene, uint32_t pattern, int threads,
+                                 struct turner_reference_statistics *statistics,
+                                 turner_progress progress, void *user)
 {
     struct turner_world world = {0};
+    uint32_t *first_ids = NULL;
     pthread_t *handles = NULL;
     enum turner_result result = TURNER_OK;
     int started = 0;
     *image = (struct turner_image){0};
     TURNER_TRY_DONE(turner_world_create(&world, scene));
     TURNER_TRY_DONE(turner_image_create(image, scene->settings.width, scene->settings.height));
+    if (layers && layers->whole[TURNER_LAYER_ID])
+        TURNER_TRY_DONE(turner_scene_first_ids(&first_ids, scene));
 
-    struct job job = {
-        .world = &world, .image = image, .view = view_of(scene), .pattern = pattern};
+    struct job job = {.world = &world, .image = image, .layers = layers, .first_ids = first_ids,
+                      .view = view_of(scene), .pattern = pattern};
     threads = thread_count(threads, image->height);
     handles = turner_calloc((size_t)threads, sizeof *handles);
     pthread_mutex_init(&job.mutex, NULL);
@@ -239,8 +294,35 @@ done:
     if (result != TURNER_OK)
         turner_image_destroy(image);
     free(handles);
+    free(first_ids);
     turner_world_destroy(&world);
     return result;
+}
+
+enum turner_result turner_reference_render(struct turner_image *image,
+                                           const struct turner_scene *scene, int threads,
+                                           struct turner_reference_statistics *statistics,
+                                           turner_progress progress, void *user)
+{
+    return render(image, NULL, scene, 0, threads, statistics, progress, user);
+}
+
+enum turner_result turner_reference_render_pattern(struct turner_image *image,
+                                                   const struct turner_scene *scene,
+                                                   uint32_t pattern, int threads,
+                                                   struct turner_reference_statistics *statistics,
+                                                   turner_progress progress, void *user)
+{
+    return render(image, NULL, scene, pattern, threads, statistics, progress, user);
+}
+
+enum turner_result turner_reference_render_layers(struct turner_image *image,
+                                                  struct turner_layers *layers,
+                                                  const struct turner_scene *scene, int threads,
+                                                  struct turner_reference_statistics *statistics,
+                                                  turner_progress progress, void *user)
+{
+    return render(image, layers, scene, 0, threads, statistics, progress, user);
 }
 
 /* ---- one ray ---- */

@@ -31,13 +31,13 @@ static bool reflects_light(const struct turner_material *material)
 }
 
 /* Fills `point` for a hit of a ray that travels in `media`. */
-static void meet(struct shading_point *point, const struct turner_tracer *tracer,
+static void meet(struct shading_point *point, const struct turner_world *world,
                  const struct turner_ray *ray, const struct turner_hit *hit,
                  const struct turner_media *media)
 {
     struct turner_surface *surface = &point->surface;
-    turner_world_surface(surface, tracer->world, ray, hit);
-    point->material = &tracer->world->scene->materials[surface->material];
+    turner_world_surface(surface, world, ray, hit);
+    point->material = &world->scene->materials[surface->material];
     point->v = negate(ray->direction);
     point->outside = dot(surface->ng, point->v) >= 0;
     point->ng = point->outside ? surface->ng : negate(surface->ng);
@@ -75,7 +75,7 @@ static turner_vector shadow(struct turner_tracer *tracer, const struct shading_p
     struct turner_hit hit;
     while (turner_world_intersect(&hit, tracer->world, &ray, distance)) {
         struct shading_point point;
-        meet(&point, tracer, &ray, &hit, &media);
+        meet(&point, tracer->world, &ray, &hit, &media);
         if (!transmits(point.material))
             return grey(0);
         through = mul(through, turner_media_transmittance(&point.media, scene, hit.t));
@@ -209,7 +209,7 @@ static turner_vector trace(struct turner_tracer *tracer, struct turner_ray ray,
             through = mul(through, turner_media_transmittance(&media, scene, INFINITY));
             return mul(through, turner_background_radiance(scene, ray.direction));
         }
-        meet(&point, tracer, &ray, &hit, &media);
+        meet(&point, tracer->world, &ray, &hit, &media);
         through = mul(through, turner_media_transmittance(&point.media, scene, hit.t));
         none = is_none(&point);
         if (none) {
@@ -235,4 +235,30 @@ turner_vector turner_trace_camera(struct turner_tracer *tracer, turner_vector or
     }
     tracer->statistics.camera_rays++;
     return trace(tracer, ray, turner_media_of_camera(&scene->camera), 0, grey(1));
+}
+
+bool turner_trace_first_hit(struct turner_first_hit *first, const struct turner_world *world,
+                            turner_vector origin, turner_vector direction)
+{
+    struct turner_ray ray = {.origin = origin, .direction = direction};
+    struct turner_media media = turner_media_of_camera(&world->scene->camera);
+    struct turner_hit hit;
+    *first = (struct turner_first_hit){0};
+    while (turner_world_intersect(&hit, world, &ray, INFINITY)) {
+        struct shading_point point;
+        meet(&point, world, &ray, &hit, &media);
+        first->depth += hit.t;
+        if (!is_none(&point)) {
+            first->position = point.surface.p;
+            first->normal = point.ns;
+            first->albedo = mul(widen(point.material->k_d),
+                                turner_pattern_color(world->scene, point.material,
+                                                     point.surface.u, point.surface.v));
+            first->place = hit.place;
+            return true;
+        }
+        ray = turner_surface_leave(&point.surface, direction, !point.outside);
+        media = point.beyond;
+    }
+    return false;
 }

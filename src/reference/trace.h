@@ -17,4 +17,15 @@ struct turner_tracer {
 turner_vector turner_trace_camera(struct turner_tracer *tracer, turner_vector origin,
                                   turner_vector direction);
 
+/* What a camera ray meets first. */
+struct turner_first_hit {
+    turner_real depth; /* along the ray */
+    turner_vector position, normal, albedo; /* normal: shading normal on the ray's side */
+    struct turner_place place;
+};
+
+/* False when it meets nothing. Does not count as a ray. */
+bool turner_trace_first_hit(struct turner_first_hit *first, const struct turner_world *world,
+                            turner_vector origin, turner_vector direction);
+
 #endif

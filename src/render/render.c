@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include "reference/reference.h"
+#include "render/layers.h"
 #include "render/renderer.h"
 
 static void inspect(const struct turner_image *image, struct turner_statistics *statistics)
@@ -49,8 +50,8 @@ static enum turner_result draw_by_reference(struct turner_image *image,
     statistics->traversal = "reference";
     statistics->precision = "extended";
     double start = turner_seconds();
-    TURNER_TRY(turner_reference_render(image, scene, options->threads, &counts, options->progress,
-                                       options->user));
+    TURNER_TRY(turner_reference_render_layers(image, options->layers, scene, options->threads,
+                                              &counts, options->progress, options->user));
     statistics->seconds_trace = turner_seconds() - start;
     statistics->camera_rays = counts.camera_rays;
     statistics->reflected_rays = counts.reflected_rays;
@@ -112,11 +113,21 @@ enum turner_result turner_render(struct turner_image *image, const struct turner
 
     memset(image, 0, sizeof *image);
     bool reference = options->device && strcmp(options->device, "reference") == 0;
+    if (turner_layers_want(options->layers, 1u << TURNER_LAYER_ERROR))
+        return turner_fail(TURNER_USAGE, "the layer error is not known of this picture; ask for "
+                                         "pruned, or leave it out");
+    if (!reference &&
+        turner_layers_want(options->layers, TURNER_LAYERS_OF_CENTER | TURNER_LAYERS_OF_RAYS))
+        return turner_fail(TURNER_USAGE, "these layers are only made with --device reference");
+    if (options->layers)
+        TURNER_TRY(turner_layers_create(options->layers, scene));
     if (!reference) /* that makes its own */
         TURNER_TRY(turner_image_create(image, scene->settings.width, scene->settings.height));
     TURNER_TRY(reference ? draw_by_reference(image, scene, options, statistics)
                          : draw_on_device(image, scene, options, statistics));
     inspect(image, statistics);
+    if (options->layers)
+        turner_layers_inspect(options->layers, image);
     warn(statistics);
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
