@@ -3,20 +3,34 @@
 #include <string.h>
 
 #include "app/app.h"
+#include "app/check_needs.h"
 #include "gpu/compiler.h"
 #include "gpu/include.h"
-#include "render/needs.h"
-#include "scene/scene.h"
+#include "render/advice.h"
 
 static void print_help(void)
 {
-    puts("Usage: turner check FILE…\n\n"
+    puts("Usage: turner check [OPTION]… FILE…\n\n"
          "Reads scenes (.json .nff and meshes) and compiles shaders (.comp .glsl, looked for in\n"
          "their own folder first) without drawing anything. Says what each scene holds and needs\n"
-         "of the kernel, or what is wrong as file:line:column: message. Exit status 0 when all is\n"
-         "well, 3 otherwise.\n\n"
-         "  -q, --quiet   say only what is wrong\n"
-         "  -h, --help    this text");
+         "of the kernel, or what is wrong as file:line:column: message, and warns where a scene\n"
+         "asks for more than its picture can show. Exit status 0 when all is well, 3 otherwise.\n\n"
+         "      --needs         what each scene needs and who asks for it, how deep rays can go,\n"
+         "                      what double precision could show, what was left out of the kernel\n"
+         "                      and how large it is (docs/needs.md)\n"
+         "      --json          --needs as JSON, a list with an object for each scene\n"
+         "      --measure DIR   draw each scene with the kernel that has what it needs and with\n"
+         "                      the one that has everything, by turns; write times and sizes to\n"
+         "                      DIR/needs.csv and needs.json, and a chart to needs.png and .svg.\n"
+         "                      Exit status 1 unless both pictures are the same to the byte\n"
+         "      --runs N        of each kind (default 5, at least 5); the median counts\n"
+         "      --size WxH, --spp N        for --measure, in place of the scene's\n"
+         "  -d, --device D      for --measure: index or part of the name (turner devices)\n"
+         "      --traversal KIND           auto | bvh | ray_query\n"
+         "  -q, --quiet         say only what is wrong\n"
+         "  -h, --help          this text\n\n"
+         "Examples: turner check --needs scenes/prism.json\n"
+         "          turner check --measure out --size 320x240 scenes/*.json");
 }
 
 static void describe(const char *path, const struct turner_scene *scene)
@@ -43,14 +57,28 @@ static void describe(const char *path, const struct turner_scene *scene)
     puts("");
 }
 
-static enum turner_result check_scene(const char *path, bool quiet)
+struct arguments {
+    bool needs, json, quiet;
+    struct turner_measure measure; /* when its folder is set */
+};
+
+static enum turner_result check_scene(const struct arguments *a, const char *path,
+                                      const struct turner_kernel *kernel, size_t everything,
+                                      cJSON *list)
 {
     struct turner_scene *scene;
+    enum turner_result result = TURNER_OK;
     TURNER_TRY(turner_scene_load(&scene, path));
-    if (!quiet)
+    if (list)
+        result = turner_needs_list(list, scene, path, kernel, everything);
+    else if (a->needs)
+        result = turner_needs_print(scene, path, kernel, everything);
+    else if (!a->quiet)
         describe(path, scene);
+    if (result == TURNER_OK)
+        turner_advise(scene, path, 0);
     turner_scene_destroy(scene);
-    return TURNER_OK;
+    return result;
 }
 
 /* Whether the kernel includes a file of that name. */
@@ -99,31 +127,95 @@ static bool is_shader(const char *path)
     return ending && (strcmp(ending, ".comp") == 0 || strcmp(ending, ".glsl") == 0);
 }
 
-enum turner_result turner_cmd_check(int argc, char **argv)
+enum { OPTION_NEEDS = 256, OPTION_JSON, OPTION_MEASURE, OPTION_RUNS, OPTION_SIZE, OPTION_SPP,
+       OPTION_TRAVERSAL };
+
+static const struct option long_options[] = {
+    {"needs", no_argument, NULL, OPTION_NEEDS},
+    {"json", no_argument, NULL, OPTION_JSON},
+    {"measure", required_argument, NULL, OPTION_MEASURE},
+    {"runs", required_argument, NULL, OPTION_RUNS},
+    {"size", required_argument, NULL, OPTION_SIZE},
+    {"spp", required_argument, NULL, OPTION_SPP},
+    {"device", required_argument, NULL, 'd'},
+    {"traversal", required_argument, NULL, OPTION_TRAVERSAL},
+    {"quiet", no_argument, NULL, 'q'},
+    {"help", no_argument, NULL, 'h'},
+    {0}};
+
+static enum turner_result take(struct arguments *a, int option, char **argv)
 {
-    static const struct option options[] = {
-        {"quiet", no_argument, NULL, 'q'}, {"help", no_argument, NULL, 'h'}, {0}};
-    bool quiet = false;
-    opterr = 0;
-    for (int option; (option = getopt_long(argc, argv, "qh", options, NULL)) != -1;) {
-        switch (option) {
-        case 'q': quiet = true; break;
-        case 'h': print_help(); return TURNER_OK;
-        default: return turner_bad_option(argv);
-        }
+    static const char *const traversals[] = {"auto", "bvh", "ray_query", NULL};
+    struct turner_measure *m = &a->measure;
+    int choice;
+    switch (option) {
+    case OPTION_NEEDS: a->needs = true; return TURNER_OK;
+    case OPTION_JSON: a->json = true; return TURNER_OK;
+    case OPTION_MEASURE: m->folder = optarg; return TURNER_OK;
+    case OPTION_RUNS: return turner_option_int(&m->runs, "--runs", optarg, 5, 10000);
+    case OPTION_SIZE: return turner_option_size(&m->width, &m->height, "--size", optarg);
+    case OPTION_SPP: return turner_option_int(&m->spp, "--spp", optarg, 1, TURNER_MAX_SPP);
+    case OPTION_TRAVERSAL:
+        TURNER_TRY(turner_option_choice(&choice, "--traversal", optarg, traversals));
+        m->traversal = (enum turner_traversal)choice;
+        return TURNER_OK;
+    case 'd': m->device = optarg; return TURNER_OK;
+    case 'q': a->quiet = m->quiet = true; return TURNER_OK;
     }
-    if (optind == argc)
-        return turner_fail(TURNER_USAGE, "check takes scenes or shaders; see turner check --help");
-    turner_set_quiet(quiet);
+    return turner_bad_option(argv);
+}
+
+/* Each file for itself: one that is wrong does not keep the others from being read. */
+static enum turner_result check_files(const struct arguments *a, char **paths, size_t count)
+{
+    static const struct turner_render_options defaults;
     enum turner_result worst = TURNER_OK;
-    for (int i = optind; i < argc; i++) {
+    struct turner_kernel kernel = {0};
+    size_t everything = 0;
+    cJSON *list = a->json ? cJSON_CreateArray() : NULL;
+    if (a->needs)
+        worst = turner_kernel_create(&kernel, a->measure.traversal == TURNER_TRAVERSAL_RAY_QUERY,
+                                     &defaults);
+    if (a->needs && worst == TURNER_OK)
+        worst = turner_everything_size(&everything, &kernel);
+    for (size_t i = 0; i < count && (i > 0 || worst == TURNER_OK); i++) {
         enum turner_result result =
-            is_shader(argv[i]) ? check_shader(argv[i], quiet) : check_scene(argv[i], quiet);
+            is_shader(paths[i]) ? check_shader(paths[i], a->quiet || list)
+                                : check_scene(a, paths[i], &kernel, everything, list);
         if (result == TURNER_OK)
             continue;
         fprintf(stderr, "turner: error: %s\n", turner_message());
         turner_fail(result, "%s", ""); /* said already */
         worst = result;
     }
+    if (list) {
+        char *text = cJSON_Print(list);
+        puts(text);
+        cJSON_free(text);
+    }
+    cJSON_Delete(list);
+    turner_kernel_destroy(&kernel);
     return worst;
+}
+
+enum turner_result turner_cmd_check(int argc, char **argv)
+{
+    struct arguments a = {.measure = {.runs = 5}};
+    opterr = 0;
+    for (int option; (option = getopt_long(argc, argv, "d:qh", long_options, NULL)) != -1;) {
+        if (option == 'h') {
+            print_help();
+            return TURNER_OK;
+        }
+        TURNER_TRY(take(&a, option, argv));
+    }
+    if (optind == argc)
+        return turner_fail(TURNER_USAGE, "check takes scenes or shaders; see turner check --help");
+    if (a.json && !a.needs)
+        return turner_fail(TURNER_USAGE, "--json is for --needs; see turner check --help");
+    turner_set_quiet(a.quiet);
+    if (a.measure.folder)
+        return turner_needs_measure(&a.measure, (const char *const *)argv + optind,
+                                    (size_t)(argc - optind));
+    return check_files(&a, argv + optind, (size_t)(argc - optind));
 }

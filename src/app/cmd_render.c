@@ -6,6 +6,7 @@
 #include "app/app.h"
 #include "image/atomic.h"
 #include "image/image.h"
+#include "render/advice.h"
 #include "render/layers.h"
 #include "render/renderer.h"
 #include "scene/methods.h"
@@ -153,7 +154,7 @@ static enum turner_result apply(const struct arguments *a, struct turner_scene *
     if (a->width)
         s->width = a->width, s->height = a->height;
     if (a->depth >= 0)
-        s->depth = a->depth;
+        s->depth = a->depth, s->depth_asked = true;
     if (!isnan(a->cutoff))
         s->cutoff = a->cutoff;
     if (a->spp)
@@ -272,6 +273,7 @@ enum turner_result turner_cmd_render(int argc, char **argv)
         puts(settings);
         free(settings);
     } else if (result == TURNER_OK) {
+        turner_advise(scene, a.scene, turner_image_bits(a.output));
         result = render(&a, scene, &statistics);
     }
     turner_scene_destroy(scene);

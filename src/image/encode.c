@@ -121,6 +121,14 @@ enum turner_result turner_image_write(const struct turner_image *image, const ch
     return turner_codec_write(path, format, image, encoding);
 }
 
+int turner_image_bits(const char *path)
+{
+    const struct turner_format *format = turner_format_find(path);
+    if (!format)
+        return 0;
+    return format->sample == TURNER_SAMPLE_U8 ? 8 : format->sample == TURNER_SAMPLE_U16 ? 16 : 32;
+}
+
 enum turner_result turner_image_check_writable(const char *path)
 {
     return turner_format_find(path) ? turner_atomic_check(path) : TURNER_USAGE;

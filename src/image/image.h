@@ -44,6 +44,9 @@ enum turner_result turner_image_write(const struct turner_image *image, const ch
  * when not. */
 enum turner_result turner_image_check_channels(const char *path);
 
+/* Bits a channel that the format of `path` holds: 8, 16, or 32 for floats; 0 for an unknown one. */
+int turner_image_bits(const char *path);
+
 /* Fails as turner_image_write would, before any work is done: unknown ending, folder missing or
  * not writable, path is a folder or another thing that is no ordinary file. Tries it out by making
  * and removing the file aside. */

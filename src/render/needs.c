@@ -1,10 +1,39 @@
 #include "render/needs.h"
 
+#include <string.h>
+
 #include "../shaders/shared.h"
+#include "render/usage.h"
 
 static bool any(struct turner_vec3 v)
 {
     return v.x != 0 || v.y != 0 || v.z != 0;
+}
+
+struct collector {
+    uint32_t bits;
+    struct turner_why *why; /* TURNER_NEEDS_COUNT */
+};
+
+/* `count` things of that kind, the first of which has that place, ask for the features `bits`. The
+ * first kind to ask is the one that is named and counted. */
+static void ask(struct collector *needs, uint32_t bits, struct turner_why asker)
+{
+    needs->bits |= bits;
+    for (uint32_t i = 0; i < TURNER_NEEDS_COUNT; i++) {
+        struct turner_why *why = &needs->why[i];
+        if (!(bits >> i & 1))
+            continue;
+        if (why->count == 0)
+            *why = asker;
+        else if (why->asker == asker.asker)
+            why->count += asker.count;
+    }
+}
+
+static struct turner_why one(enum turner_asker asker, size_t index)
+{
+    return (struct turner_why){asker, 0, (uint32_t)index, 1};
 }
 
 static uint32_t needs_of_material(const struct turner_material *m,
@@ -36,19 +65,17 @@ static uint32_t needs_of_material(const struct turner_material *m,
     return bits;
 }
 
-static uint32_t needs_of_group(const struct turner_group *group)
+static void ask_of_group(struct collector *needs, const struct turner_scene *scene, size_t index)
 {
-    uint32_t bits = 0;
-    if (group->sphere_count)
-        bits |= TURNER_NEEDS_SPHERES;
-    if (group->cone_count)
-        bits |= TURNER_NEEDS_CONES;
-    for (size_t i = 0; i < group->mesh_count; i++) {
-        bits |= TURNER_NEEDS_TRIANGLES;
-        if (group->meshes[i].normals)
-            bits |= TURNER_NEEDS_SMOOTH;
-    }
-    return bits;
+    const struct turner_group *group = &scene->groups[index];
+    uint32_t g = (uint32_t)index;
+    ask(needs, group->sphere_count ? TURNER_NEEDS_SPHERES : 0,
+        (struct turner_why){TURNER_ASKER_SPHERE, g, 0, group->sphere_count});
+    ask(needs, group->cone_count ? TURNER_NEEDS_CONES : 0,
+        (struct turner_why){TURNER_ASKER_CONE, g, 0, group->cone_count});
+    for (size_t i = 0; i < group->mesh_count; i++)
+        ask(needs, TURNER_NEEDS_TRIANGLES | (group->meshes[i].normals ? TURNER_NEEDS_SMOOTH : 0),
+            (struct turner_why){TURNER_ASKER_MESH, g, (uint32_t)i, 1});
 }
 
 static uint32_t needs_of_light(const struct turner_light *light)
@@ -85,61 +112,56 @@ static void bound_loops(struct turner_needs *needs, const struct turner_scene *s
     needs->stack = needs->bits & TURNER_NEEDS_BRANCHING && depth > 1 ? (uint32_t)depth : 1;
 }
 
-struct turner_needs turner_needs_of(const struct turner_scene *scene)
+/* Everything but materials and media. */
+static void ask_of_scene(struct collector *needs, const struct turner_scene *scene)
 {
-    struct turner_needs needs = {0};
-    for (size_t i = 0; i < scene->material_count; i++)
-        needs.bits |= needs_of_material(&scene->materials[i], &scene->settings);
-    for (size_t i = 0; i < scene->group_count; i++)
-        needs.bits |= needs_of_group(&scene->groups[i]);
     for (size_t i = 0; i < scene->light_count; i++)
-        needs.bits |= needs_of_light(&scene->lights[i]);
-    if (scene->plane_count)
-        needs.bits |= TURNER_NEEDS_PLANES;
-    if (scene->instance_count)
-        needs.bits |= TURNER_NEEDS_INSTANCES;
-    if (scene->camera.inside_count)
-        needs.bits |= TURNER_NEEDS_MEDIA;
-    for (size_t i = 0; i < scene->media_count && needs.bits & TURNER_NEEDS_MEDIA; i++)
-        needs.bits |= any(scene->media[i].absorption) ? TURNER_NEEDS_ABSORPTION : 0;
-    needs.bits |= scene->settings.shading == TURNER_SHADING_PHONG ? TURNER_NEEDS_PHONG
-                                                                  : TURNER_NEEDS_CONSERVING;
+        ask(needs, needs_of_light(&scene->lights[i]), one(TURNER_ASKER_LIGHT, i));
+    ask(needs, scene->plane_count ? TURNER_NEEDS_PLANES : 0,
+        (struct turner_why){TURNER_ASKER_PLANE, 0, 0, scene->plane_count});
+    ask(needs, scene->instance_count ? TURNER_NEEDS_INSTANCES : 0,
+        (struct turner_why){TURNER_ASKER_INSTANCE, 0, 0, scene->instance_count});
+    ask(needs, scene->settings.shading == TURNER_SHADING_PHONG ? TURNER_NEEDS_PHONG
+                                                               : TURNER_NEEDS_CONSERVING,
+        one(TURNER_ASKER_SHADING, 0));
     if (scene->background.kind == TURNER_BACKGROUND_GRADIENT)
-        needs.bits |= TURNER_NEEDS_GRADIENT;
+        ask(needs, TURNER_NEEDS_GRADIENT, one(TURNER_ASKER_BACKGROUND, 0));
     if (scene->background.kind == TURNER_BACKGROUND_ENVIRONMENT)
-        needs.bits |= TURNER_NEEDS_ENVIRONMENT;
+        ask(needs, TURNER_NEEDS_ENVIRONMENT, one(TURNER_ASKER_BACKGROUND, 0));
+}
+
+struct turner_needs turner_needs_explain(struct turner_why why[TURNER_NEEDS_COUNT],
+                                         const struct turner_scene *scene)
+{
+    memset(why, 0, TURNER_NEEDS_COUNT * sizeof *why);
+    struct collector collected = {.why = why};
+    struct turner_usage usage;
+    turner_usage_create(&usage, scene);
+    for (size_t i = 0; i < scene->group_count; i++) {
+        if (usage.groups[i])
+            ask_of_group(&collected, scene, i);
+    }
+    for (size_t i = 0; i < scene->material_count; i++) {
+        if (usage.materials[i])
+            ask(&collected, needs_of_material(&scene->materials[i], &scene->settings),
+                one(TURNER_ASKER_MATERIAL, i));
+    }
+    if (scene->camera.inside_count)
+        ask(&collected, TURNER_NEEDS_MEDIA, one(TURNER_ASKER_CAMERA, 0));
+    for (size_t i = 0; i < scene->media_count; i++) {
+        if (usage.media[i] && any(scene->media[i].absorption))
+            ask(&collected, TURNER_NEEDS_ABSORPTION, one(TURNER_ASKER_MEDIUM, i));
+    }
+    ask_of_scene(&collected, scene);
+    turner_usage_destroy(&usage);
+
+    struct turner_needs needs = {.bits = collected.bits};
     bound_loops(&needs, scene);
     return needs;
 }
 
-const char *turner_needs_name(uint32_t bit)
+struct turner_needs turner_needs_of(const struct turner_scene *scene)
 {
-    switch (bit) {
-    case TURNER_NEEDS_SPHERES: return "spheres";
-    case TURNER_NEEDS_CONES: return "cones";
-    case TURNER_NEEDS_TRIANGLES: return "triangles";
-    case TURNER_NEEDS_PLANES: return "planes";
-    case TURNER_NEEDS_INSTANCES: return "instances";
-    case TURNER_NEEDS_SMOOTH: return "smooth normals";
-    case TURNER_NEEDS_CHECKER: return "checker pattern";
-    case TURNER_NEEDS_IMAGES: return "image textures";
-    case TURNER_NEEDS_DIRECTIONAL: return "directional lights";
-    case TURNER_NEEDS_POINT: return "point lights";
-    case TURNER_NEEDS_SPOT: return "spot lights";
-    case TURNER_NEEDS_PHONG: return "classic Phong";
-    case TURNER_NEEDS_CONSERVING: return "energy-conserving Phong";
-    case TURNER_NEEDS_SPECULAR: return "highlights";
-    case TURNER_NEEDS_REFLECTION: return "reflection";
-    case TURNER_NEEDS_TRANSMISSION: return "transmission";
-    case TURNER_NEEDS_BRANCHING: return "branching rays";
-    case TURNER_NEEDS_SCHLICK: return "Schlick's Fresnel";
-    case TURNER_NEEDS_EXACT: return "exact Fresnel";
-    case TURNER_NEEDS_CONDUCTOR: return "metals";
-    case TURNER_NEEDS_MEDIA: return "media";
-    case TURNER_NEEDS_ABSORPTION: return "absorption";
-    case TURNER_NEEDS_TINTED: return "tinted shadows";
-    case TURNER_NEEDS_GRADIENT: return "gradient background";
-    case TURNER_NEEDS_ENVIRONMENT: return "environment picture";
-    }
-    return "unknown";
+    struct turner_why why[TURNER_NEEDS_COUNT];
+    return turner_needs_explain(why, scene);
 }

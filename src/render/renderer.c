@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "gpu/include.h"
+#include "gpu/specialise.h"
 
 /* A tile should take about this long: short for a watchdog and for Ctrl-C, long beside the cost of
  * a submission. */
@@ -62,17 +63,36 @@ static uint32_t round_up(uint32_t size, uint32_t step)
     return (size + step - 1) / step * step;
 }
 
+struct turner_kernel_constants turner_kernel_constants(const struct turner_needs *needs,
+                                                       uint32_t bvh_depth)
+{
+    return (struct turner_kernel_constants){{
+        {TURNER_CONSTANT_NEEDS, needs->bits},
+        {TURNER_CONSTANT_STACK, needs->stack > 1 ? round_up(needs->stack, 8) : 1},
+        {TURNER_CONSTANT_BVH_STACK, round_up(bvh_depth + 1, 16)},
+    }};
+}
+
+enum turner_result turner_kernel_size(size_t *bytes, const struct turner_kernel *kernel,
+                                      const struct turner_needs *needs)
+{
+    /* the depth of the tree is an array's length, and changes no instruction */
+    struct turner_kernel_constants constants = turner_kernel_constants(needs, 0);
+    struct turner_spirv special;
+    TURNER_TRY(turner_spirv_specialise(&special, &kernel->spirv, constants.at,
+                                       sizeof constants.at / sizeof *constants.at));
+    *bytes = special.count * sizeof *special.words;
+    turner_spirv_destroy(&special);
+    return TURNER_OK;
+}
+
 static enum turner_result specialise(struct turner_renderer *renderer,
                                      const struct turner_kernel *kernel)
 {
-    const struct turner_needs *needs = &renderer->needs;
-    struct turner_constant constants[] = {
-        {TURNER_CONSTANT_NEEDS, needs->bits},
-        {TURNER_CONSTANT_STACK, needs->stack > 1 ? round_up(needs->stack, 8) : 1},
-        {TURNER_CONSTANT_BVH_STACK, round_up(renderer->flat.max_depth + 1, 16)},
-    };
-    return turner_program_create(&renderer->program, renderer->gpu, &kernel->spirv, constants,
-                                 sizeof constants / sizeof *constants, VK_NULL_HANDLE);
+    struct turner_kernel_constants constants =
+        turner_kernel_constants(&renderer->needs, renderer->flat.max_depth);
+    return turner_program_create(&renderer->program, renderer->gpu, &kernel->spirv, constants.at,
+                                 sizeof constants.at / sizeof *constants.at, VK_NULL_HANDLE);
 }
 
 static enum turner_result create(struct turner_renderer *renderer,

@@ -17,6 +17,19 @@ enum turner_result turner_kernel_create(struct turner_kernel *kernel, bool ray_q
                                         const struct turner_render_options *options);
 void turner_kernel_destroy(struct turner_kernel *kernel);
 
+/* What specialises a kernel to a scene. */
+struct turner_kernel_constants {
+    struct turner_constant at[3];
+};
+
+/* `bvh_depth` is turner_flat.max_depth. */
+struct turner_kernel_constants turner_kernel_constants(const struct turner_needs *needs,
+                                                       uint32_t bvh_depth);
+
+/* Bytes of SPIR-V that are left of the kernel once it is specialised and optimised. No device. */
+enum turner_result turner_kernel_size(size_t *bytes, const struct turner_kernel *kernel,
+                                      const struct turner_needs *needs);
+
 struct turner_renderer {
     struct turner_gpu *gpu; /* not owned */
     bool ray_query;

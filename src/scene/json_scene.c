@@ -62,6 +62,7 @@ static enum turner_result read_settings(struct json_reader *reader, const struct
     struct turner_settings *settings = &reader->scene->settings;
     struct json_object object;
     TURNER_TRY(json_read_object(&object, settings, reader, value, &json_table_settings));
+    settings->depth_asked = json_member(&object, "depth") != NULL;
     const struct json_value *size = json_member(&object, "size");
     if (size) {
         const struct json_range range = JSON_FROM_TO(1, TURNER_MAX_SIZE);

@@ -159,7 +159,8 @@ static bool set(struct turner_settings *settings, const char *name, const char *
     if (strcmp(name, "aa") == 0)
         return set_aa(settings, value);
     if (strcmp(name, "depth") == 0)
-        return read_int(&settings->depth, value, 0, 0, TURNER_MAX_DEPTH);
+        return read_int(&settings->depth, value, 0, 0, TURNER_MAX_DEPTH) &&
+               (settings->depth_asked = true);
     return read_real(&settings->cutoff, value, 0, 0, 1);
 }
 

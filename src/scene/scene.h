@@ -70,6 +70,7 @@ struct turner_methods {
 struct turner_settings {
     int width, height;     /* 1 … TURNER_MAX_SIZE; default 640×480 */
     int depth;             /* max_depth, 0 … TURNER_MAX_DEPTH; default 8 */
+    bool depth_asked;      /* somebody said so: it is no default */
     double cutoff;         /* ≥ 0; default 1/512; 0 switches it off */
     int spp;               /* samples per pixel, ≥ 1; default 1; pattern in docs/model.md */
     double aa_threshold;   /* > 0: adaptive, a pixel gets up to spp samples where its corners and

@@ -1,9 +1,5 @@
 # Whole pictures: what is compiled in, that nothing but the scene decides them, counts, edge cases.
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
-find_program(TURNER_SPIRV_OPT spirv-opt DOC "Specialises kernels for a test of their size")
-if(NOT TURNER_SPIRV_OPT)
-    set(TURNER_SPIRV_OPT "")
-endif()
 
 # turner_render_test(NAME): a program with all layers.
 function(turner_render_test name)
@@ -14,8 +10,7 @@ function(turner_render_test name)
     foreach(layer IN ITEMS base image scene reference bvh gpu render)
         target_link_libraries(test_${name} PRIVATE turner_${layer})
     endforeach()
-    target_compile_definitions(test_${name} PRIVATE TURNER_SPIRV_OPT="${TURNER_SPIRV_OPT}"
-        TURNER_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    target_compile_definitions(test_${name} PRIVATE TURNER_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     set_target_properties(test_${name} PROPERTIES LINKER_LANGUAGE CXX)
 endfunction()
 

@@ -1,0 +1,16 @@
+/* What is left of a shader once its constants are known, without a device: SPIRV-Tools does what a
+ * driver's compiler does first. */
+#ifndef TURNER_GPU_SPECIALISE_H
+#define TURNER_GPU_SPECIALISE_H
+
+#include "gpu/program.h"
+
+/* Writes to `out` (turner_spirv_destroy) the shader with the constants folded in, what cannot run
+ * then taken out, and the rest optimised for speed (spirv-opt -O). As with turner_program_create,
+ * constants the shader lacks are ignored, and those not given keep their default.
+ * TURNER_BAD_INPUT when SPIRV-Tools cannot. */
+enum turner_result turner_spirv_specialise(struct turner_spirv *out,
+                                           const struct turner_spirv *spirv,
+                                           const struct turner_constant *constants, size_t count);
+
+#endif
