@@ -10,16 +10,33 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer nod
 // Set on a stack entry that is an instance of the top level, to be entered.
 const uint SENTINEL = 0xffffffffu; // below it the rest of the top level waits
 
+// Boxes are met in floats, whatever the kernel computes in.
 struct boxes_ray_t {
-    vec3 origin;
+    vec3 above, below; // the origin, or two that it lies between where it is no float
     vec3 inverse; // of the direction, its components kept away from 0 so that no 0·∞ arises
 };
 
-boxes_ray_t boxes_ray_of(vec3 origin, vec3 direction)
+boxes_ray_t boxes_ray_of(real3 origin, real3 direction)
 {
     const float tiny = 1e-20;
-    vec3 d = mix(direction, vec3(tiny), lessThan(abs(direction), vec3(tiny)));
-    return boxes_ray_t(origin, 1.0 / d);
+    vec3 o = vec3(origin), d = vec3(direction);
+    d = mix(d, vec3(tiny), lessThan(abs(d), vec3(tiny)));
+#ifdef TURNER_F64
+    float pad = 2.4e-7 * largest(abs(o)); // of the origin's rounding, and the direction's
+    return boxes_ray_t(o + pad, o - pad, 1.0 / d);
+#else
+    return boxes_ray_t(o, o, 1.0 / d);
+#endif
+}
+
+// The bits of a float that is not below t.
+int bits_of(real t)
+{
+#ifdef TURNER_F64
+    return floatBitsToInt(float(t) * 1.0000002);
+#else
+    return floatBitsToInt(t);
+#endif
 }
 
 // Entry of the ray into a box as the bits of a float ≥ 0, or −1. Floats are compared as integers:
@@ -27,7 +44,7 @@ boxes_ray_t boxes_ray_of(vec3 origin, vec3 direction)
 // The far side is padded by 1 + 2γ₃ (Ize, "Robust BVH ray traversal", JCGT 2, 2013).
 int enter_box(boxes_ray_t ray, vec3 lo, vec3 hi, int t_max)
 {
-    vec3 t_lo = (lo - ray.origin) * ray.inverse, t_hi = (hi - ray.origin) * ray.inverse;
+    vec3 t_lo = (lo - ray.above) * ray.inverse, t_hi = (hi - ray.below) * ray.inverse;
     ivec3 a = floatBitsToInt(t_lo), b = floatBitsToInt(t_hi);
     ivec3 near = min(a, b), far = max(a, b);
     int enter = max(max(near.x, near.y), max(near.z, 0));
@@ -44,7 +61,7 @@ void traverse(inout search_t search, ray_t ray)
     bool top = NEEDS_ANY(TURNER_NEEDS_INSTANCES);
     instance_array instances = instance_array(scene.instances);
     uint node = top ? scene.root : instances.at[0].root;
-    vec3 origin = ray.origin, direction = ray.direction;
+    real3 origin = ray.origin, direction = ray.direction;
     boxes_ray_t boxes = boxes_ray_of(origin, direction);
     shear_t shear = shear_of(direction);
 
@@ -58,7 +75,7 @@ void traverse(inout search_t search, ray_t ray)
         vec2 w5 = uintBitsToFloat(unpackUint2x32(words.word[5]));
         uvec2 child = unpackUint2x32(words.word[6]);
         uvec2 count = unpackUint2x32(words.word[7]);
-        int t_max = floatBitsToInt(search.hit.t);
+        int t_max = bits_of(search.hit.t);
         int enter0 = enter_box(boxes, vec3(w0, w1.x), vec3(w1.y, w2), t_max);
         int enter1 = enter_box(boxes, vec3(w3, w4.x), vec3(w4.y, w5), t_max);
 
@@ -108,15 +125,15 @@ void traverse(inout search_t search, ray_t ray)
         }
         if (NEEDS_ANY(TURNER_NEEDS_INSTANCES) && top && (next & 0x80000000u) != 0u) {
             instance = next & 0x7fffffffu;
-            turner_gpu_instance entered = instances.at[instance];
-            override_material = entered.material;
-            origin = transform_point(entered.to_group, ray.origin);
-            direction = transform_vector(entered.to_group, ray.direction);
+            real[12] to_group = to_group_of(instance);
+            override_material = instances.at[instance].material;
+            origin = transform_point(to_group, ray.origin);
+            direction = transform_vector(to_group, ray.direction);
             boxes = boxes_ray_of(origin, direction);
             shear = shear_of(direction);
             stack[height++] = SENTINEL;
             top = false;
-            next = entered.root;
+            next = instances.at[instance].root;
         }
         node = next;
     }

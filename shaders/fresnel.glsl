@@ -1,33 +1,34 @@
 // How much is reflected. c is the cosine of the angle of incidence, in [0,1]; c_t that of the
 // refracted direction; n1 and n2 the indices on the ray's side and beyond.
 
-float pow5(float x)
+real pow5(real x)
 {
-    float x2 = x * x;
+    real x2 = x * x;
     return x2 * x2 * x;
 }
 
 // Unpolarised dielectric: the mean of both polarisations (Fresnel, 1823).
-float fresnel_exact(float n1, float n2, float c, float c_t)
+real fresnel_exact(real n1, real n2, real c, real c_t)
 {
-    if (n1 == n2)
+    if (n1 == n2 && !METHOD(TURNER_METHOD_COSINE_NAIVE))
         return 0.0; // 0/0 at grazing incidence
-    float s = (n1 * c - n2 * c_t) / (n1 * c + n2 * c_t);
-    float p = (n1 * c_t - n2 * c) / (n1 * c_t + n2 * c);
+    real s = (n1 * c - n2 * c_t) / (n1 * c + n2 * c_t);
+    real p = (n1 * c_t - n2 * c) / (n1 * c_t + n2 * c);
     return 0.5 * (s * s + p * p);
 }
 
 // Schlick (1994); seen from the dense side the angle beyond is the one to take.
-float fresnel_schlick(float n1, float n2, float c, float c_t)
+real fresnel_schlick(real n1, real n2, real c, real c_t)
 {
-    float r = (n1 - n2) / (n1 + n2);
-    float r0 = r * r;
-    return r0 + (1.0 - r0) * pow5(1.0 - (n1 > n2 ? c_t : c));
+    real r = (n1 - n2) / (n1 + n2);
+    real r0 = r * r;
+    bool beyond = n1 > n2 && !METHOD(TURNER_METHOD_SCHLICK_INCIDENT);
+    return r0 + (1.0 - r0) * pow5(1.0 - (beyond ? c_t : c));
 }
 
 vec3 fresnel_schlick_metal(vec3 r0, float c)
 {
-    return r0 + (1.0 - r0) * pow5(1.0 - c);
+    return r0 + (1.0 - r0) * float(pow5(1.0 - c));
 }
 
 // Conductor with index eta + i·k relative to the medium in front, per channel.

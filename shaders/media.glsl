@@ -50,7 +50,7 @@ bool media_contains(uint64_t list, uint medium)
 // surface is none when both travel in the same medium.
 struct crossing_t {
     uint64_t before, after;
-    bool real;
+    bool boundary;
 };
 
 crossing_t media_cross(uint64_t list, uint medium, bool entering)
@@ -64,14 +64,17 @@ crossing_t media_cross(uint64_t list, uint medium, bool entering)
         crossing.before = media_contains(list, medium) ? list : media_add(list, medium);
         crossing.after = media_remove(crossing.before, medium);
     }
-    crossing.real = media_current(crossing.before) != media_current(crossing.after);
+    crossing.boundary = media_current(crossing.before) != media_current(crossing.after);
     return crossing;
 }
 
-float media_index(uint64_t list)
+real media_index(uint64_t list)
 {
     uint medium = media_current(list);
-    return medium == OUTSIDE ? 1.0 : medium_array(scene.media).at[medium - 1u].index;
+    if (medium == OUTSIDE)
+        return 1.0;
+    return EXACT(real, medium_array(scene.media).at[medium - 1u].index,
+                 medium_array(scene.media).at[medium - 1u].index_rest);
 }
 
 // Beer–Lambert: what is left of light after `distance` (may be INFINITY) in the current medium.

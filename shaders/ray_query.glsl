@@ -25,11 +25,12 @@ void traverse(inout search_t search, ray_t ray)
             uint instance = rayQueryGetIntersectionInstanceCustomIndexEXT(query, false);
             uint first = triangle ? instances.at[instance].triangles : instances.at[instance].boxes;
             uint index = first + rayQueryGetIntersectionPrimitiveIndexEXT(query, false);
-            vec3 origin = ray.origin, direction = ray.direction;
+            real3 origin = ray.origin, direction = ray.direction;
             uint override_material = TURNER_NO_INDEX;
             if (NEEDS_ANY(TURNER_NEEDS_INSTANCES)) {
-                origin = transform_point(instances.at[instance].to_group, ray.origin);
-                direction = transform_vector(instances.at[instance].to_group, ray.direction);
+                real[12] to_group = to_group_of(instance);
+                origin = transform_point(to_group, ray.origin);
+                direction = transform_vector(to_group, ray.direction);
                 override_material = instances.at[instance].material;
                 if (instance != sheared) {
                     shear = shear_of(direction);

@@ -22,6 +22,7 @@
 #define TURNER_CONSTANT_NEEDS 0     /* TURNER_NEEDS_… of the scene */
 #define TURNER_CONSTANT_STACK 1     /* pending rays kept at once: max_depth where rays branch */
 #define TURNER_CONSTANT_BVH_STACK 2 /* nodes kept at once: from the depth of the built tree */
+#define TURNER_CONSTANT_METHODS 3   /* TURNER_METHOD_… chosen; 0 is the default of each */
 #define TURNER_WORKGROUP 8          /* a workgroup is 8×8 pixels in Morton order */
 
 /* ---- what a scene may need; what it does not is not in the kernel ---- */
@@ -52,6 +53,16 @@
 #define TURNER_NEEDS_ENVIRONMENT (1u << 24)
 #define TURNER_NEEDS_ALL ((1u << 25) - 1u)
 
+/* ---- ways to compute, where not the default (src/scene/methods.c says what each is); f64 is a
+ * matter of the kernel's source: TURNER_F64, TURNER_SPHERE_F64 ---- */
+#define TURNER_METHOD_SPHERE_TEXTBOOK (1u << 0)
+#define TURNER_METHOD_MOLLER_TRUMBORE (1u << 1)
+#define TURNER_METHOD_OFFSET_NONE (1u << 2)
+#define TURNER_METHOD_OFFSET_TMIN (1u << 3)
+#define TURNER_METHOD_OFFSET_ULP (1u << 4)
+#define TURNER_METHOD_COSINE_NAIVE (1u << 5)
+#define TURNER_METHOD_SCHLICK_INCIDENT (1u << 6)
+
 #define TURNER_NO_INDEX 0xffffffffu
 
 /* ---- geometry ---- */
@@ -78,6 +89,15 @@ TURNER_STRUCT(turner_gpu_primitive)
     uint material;
     uint attributes; /* triangle: index into corners, and the two flags; or TURNER_NO_INDEX */
 };
+
+/* What rounding to floats took from a primitive, for kernels that compute in double. */
+TURNER_STRUCT(turner_gpu_primitive_rest)
+{
+    TURNER_VEC3(a);
+    TURNER_VEC3(b);
+    TURNER_VEC3(c);
+};
+
 #define TURNER_ATTRIBUTES_NORMALS 0x80000000u
 #define TURNER_ATTRIBUTES_UVS 0x40000000u
 #define TURNER_ATTRIBUTES_MASK 0x3fffffffu
@@ -113,11 +133,21 @@ TURNER_STRUCT(turner_gpu_instance)
     uint pad;
 };
 
+TURNER_STRUCT(turner_gpu_instance_rest)
+{
+    float to_world[12];
+    float to_group[12];
+};
+
+/* x_rest: what rounding took from x, here and below. */
 TURNER_STRUCT(turner_gpu_plane)
 {
     TURNER_VEC3(point);
+    TURNER_VEC3(point_rest);
     TURNER_VEC3(normal);
+    TURNER_VEC3(normal_rest);
     TURNER_VEC3(tangent);
+    TURNER_VEC3(tangent_rest);
     uint material;
 };
 
@@ -155,6 +185,7 @@ TURNER_STRUCT(turner_gpu_medium)
 {
     TURNER_VEC3(absorption);
     float index;
+    float index_rest;
 };
 
 TURNER_STRUCT(turner_gpu_image)
@@ -171,7 +202,9 @@ TURNER_STRUCT(turner_gpu_image)
 TURNER_STRUCT(turner_gpu_light)
 {
     TURNER_VEC3(position);
+    TURNER_VEC3(position_rest);
     TURNER_VEC3(direction); /* the way the light travels */
+    TURNER_VEC3(direction_rest);
     TURNER_VEC3(power);
     uint kind;
     uint inverse_square; /* 1 or 0 */
@@ -198,6 +231,8 @@ TURNER_STRUCT(turner_gpu_scene)
     TURNER_UINT64 images;
     TURNER_UINT64 lights;
     TURNER_UINT64 inside; /* media list of the eye (media.glsl) */
+    TURNER_UINT64 primitive_rests; /* these two only for kernels that compute in double */
+    TURNER_UINT64 instance_rests;
     uint root;          /* of the top level over instances */
     uint plane_count;
     uint light_count;
@@ -209,11 +244,16 @@ TURNER_STRUCT(turner_gpu_scene)
     uint shadows_tinted;
     uint spd_rays;
     float cutoff;
+    float tmin;         /* TURNER_METHOD_OFFSET_TMIN */
     TURNER_VEC3(ambient);
     TURNER_VEC3(eye);
+    TURNER_VEC3(eye_rest);
     TURNER_VEC3(right);   /* one pixel to the right on the plane at distance 1 */
+    TURNER_VEC3(right_rest);
     TURNER_VEC3(down);    /* one pixel down */
+    TURNER_VEC3(down_rest);
     TURNER_VEC3(forward); /* unit, to the picture's centre */
+    TURNER_VEC3(forward_rest);
     TURNER_VEC2(center);  /* of the picture, in pixels */
     uint background;
     TURNER_VEC3(background_color);

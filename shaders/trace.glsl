@@ -17,8 +17,8 @@ struct search_t {
 };
 
 // Takes a candidate at t if it beats the nearest so far; equal t goes to the one that comes first.
-void consider(inout search_t search, float t, uint id, uint primitive, uint instance,
-              vec2 coordinates, uint material)
+void consider(inout search_t search, real t, uint id, uint primitive, uint instance,
+              real2 coordinates, uint material)
 {
     bool nearer = t < search.hit.t;
     bool tied = t == search.hit.t && search.found &&
@@ -33,18 +33,20 @@ void consider(inout search_t search, float t, uint id, uint primitive, uint inst
 
 // Intersects one primitive of a group; `origin` and `direction` are in the group's coordinates.
 void intersect_primitive(inout search_t search, uint index, uint instance, uint override_material,
-                         vec3 origin, vec3 direction, shear_t shear)
+                         real3 origin, real3 direction, shear_t shear)
 {
     turner_gpu_primitive p = primitive_array(scene.primitives).at[index];
     uint kind = p.id >> TURNER_KIND_SHIFT;
-    float t = INFINITY;
-    vec2 coordinates = vec2(0.0);
+    shape_t s = shape_of(p, index);
+    real t = INFINITY;
+    real2 coordinates = real2(0.0);
     if (NEEDS_ANY(TURNER_NEEDS_SPHERES) && kind == TURNER_KIND_SPHERE)
-        t = intersect_sphere(origin, direction, p.a, p.b.x);
+        t = intersect_sphere(origin, direction, s.a, s.b.x);
     if (NEEDS_ANY(TURNER_NEEDS_CONES) && kind == TURNER_KIND_CONE)
-        t = intersect_cone(origin, direction, p.a, p.b, p.c.x, p.c.y, p.c.z != 0.0, coordinates.x);
+        t = intersect_cone(origin, direction, s.a, s.b, s.c.x, s.c.y, p.c.z != 0.0,
+                           coordinates.x);
     if (NEEDS_ANY(TURNER_NEEDS_TRIANGLES) && kind == TURNER_KIND_TRIANGLE)
-        t = intersect_triangle(origin, shear, p.a, p.b, p.c, coordinates);
+        t = intersect_triangle(origin, direction, shear, s.a, s.b, s.c, coordinates);
     uint material = NEEDS_ANY(TURNER_NEEDS_INSTANCES) && override_material != TURNER_NO_INDEX
                         ? override_material : p.material;
     consider(search, t, p.id, index, instance, coordinates, material);
@@ -60,8 +62,8 @@ void intersect_planes(inout search_t search, ray_t ray)
 {
     plane_array planes = plane_array(scene.planes);
     for (uint i = 0; i < scene.plane_count && !search.blocked; i++) {
-        float t = intersect_plane(ray.origin, ray.direction, planes.at[i].point, planes.at[i].normal);
-        consider(search, t, (TURNER_KIND_PLANE << TURNER_KIND_SHIFT) | i, i, 0u, vec2(0.0),
+        real t = intersect_plane(ray.origin, ray.direction, planes.at[i]);
+        consider(search, t, (TURNER_KIND_PLANE << TURNER_KIND_SHIFT) | i, i, 0u, real2(0.0),
                  planes.at[i].material);
     }
 }
@@ -69,7 +71,7 @@ void intersect_planes(inout search_t search, ray_t ray)
 search_t trace(ray_t ray, bool shadow)
 {
     search_t search;
-    search.hit = hit_t(ray.t_max, 0u, 0u, 0u, vec2(0.0));
+    search.hit = hit_t(ray.t_max, 0u, 0u, 0u, real2(0.0));
     search.found = false;
     search.shadow = shadow;
     search.tinted = NEEDS_ANY(TURNER_NEEDS_TINTED) && scene.shadows_tinted != 0u;

@@ -21,27 +21,27 @@ struct path_t { // a ray that carries light to the picture
 struct shading_t { // the surface being lit
     surface_t surface;
     turner_gpu_material material;
-    vec3 ng, N, V; // the normals on V's side
+    real3 ng, N, V; // the normals on V's side
     vec3 weight;
     uint64_t media; // on V's side
     uint light;     // the next to ask
 };
 
 struct secondary_t { // what a surface sends on
-    vec3 reflected, refracted; // directions
-    vec3 w_r, w_t;             // weights relative to the ray that came
-    bool total;                // total internal reflection
+    real3 reflected, refracted; // directions
+    vec3 w_r, w_t;              // weights relative to the ray that came
+    bool total;                 // total internal reflection
 };
 
 // W_r, W_t and directions, docs/model.md "Secondary rays".
-secondary_t secondary_rays(turner_gpu_material material, bool transmissive, vec3 ng, vec3 N, vec3 V,
-                           uint64_t before, uint64_t after)
+secondary_t secondary_rays(turner_gpu_material material, bool transmissive, real3 ng, real3 N,
+                           real3 V, uint64_t before, uint64_t after)
 {
     secondary_t s;
-    float c_direction = dot(N, V);
-    float c = clamp(c_direction, 0.0, 1.0);
+    real c_direction = dot(N, V);
+    real c = clamp(c_direction, 0.0, 1.0);
     s.reflected = 2.0 * c_direction * N - V;
-    float below = dot(s.reflected, ng);
+    real below = dot(s.reflected, ng);
     if (below < 0.0)
         s.reflected -= 2.0 * below * ng;
     s.reflected = normalize(s.reflected);
@@ -51,30 +51,32 @@ secondary_t secondary_rays(turner_gpu_material material, bool transmissive, vec3
     s.total = false;
 
     if (NEEDS_ANY(TURNER_NEEDS_TRANSMISSION) && transmissive) {
-        float n1 = media_index(before), n2 = media_index(after);
-        float eta = n1 / n2;
-        // not 1 − η²(1 − c²), which cancels for η near 1
-        float cos2_t = (1.0 - eta) * (1.0 + eta) + eta * eta * c_direction * c_direction;
+        real n1 = media_index(before), n2 = media_index(after);
+        real eta = n1 / n2;
+        // 1 − η²(1 − c²) cancels for η near 1
+        real cos2_t = METHOD(TURNER_METHOD_COSINE_NAIVE)
+                          ? 1.0 - eta * eta * (1.0 - c_direction * c_direction)
+                          : (1.0 - eta) * (1.0 + eta) + eta * eta * c_direction * c_direction;
         s.total = cos2_t < 0.0;
         if (s.total) {
             if (material.fresnel == TURNER_FRESNEL_KIND_NONE)
                 s.w_r += material.k_t;
             return s;
         }
-        float c_t = sqrt(cos2_t);
+        real c_t = sqrt(cos2_t);
         s.refracted = -eta * V + (eta * c_direction - c_t) * N;
-        float above = dot(s.refracted, ng);
+        real above = dot(s.refracted, ng);
         if (above > 0.0)
             s.refracted -= 2.0 * above * ng;
         s.refracted = normalize(s.refracted);
         s.w_t = material.k_t;
         if (NEEDS_ANY(TURNER_NEEDS_EXACT) && material.fresnel == TURNER_FRESNEL_KIND_EXACT) {
-            float f = fresnel_exact(n1, n2, c, c_t);
+            float f = float(fresnel_exact(n1, n2, c, c_t));
             s.w_r *= f;
             s.w_t *= 1.0 - f;
         }
         if (NEEDS_ANY(TURNER_NEEDS_SCHLICK) && material.fresnel == TURNER_FRESNEL_KIND_SCHLICK) {
-            float f = fresnel_schlick(n1, n2, c, c_t);
+            float f = float(fresnel_schlick(n1, n2, c, c_t));
             s.w_r *= f;
             s.w_t *= 1.0 - f;
         }
@@ -82,10 +84,10 @@ secondary_t secondary_rays(turner_gpu_material material, bool transmissive, vec3
     }
     if (NEEDS_ANY(TURNER_NEEDS_SCHLICK) && material.fresnel == TURNER_FRESNEL_KIND_SCHLICK &&
         material.k_r != vec3(0.0))
-        s.w_r = fresnel_schlick_metal(material.k_r, c);
+        s.w_r = fresnel_schlick_metal(material.k_r, float(c));
     if (NEEDS_ANY(TURNER_NEEDS_CONDUCTOR) && material.fresnel == TURNER_FRESNEL_KIND_CONDUCTOR) {
-        float n = NEEDS_ANY(TURNER_NEEDS_MEDIA) ? media_index(before) : 1.0;
-        s.w_r *= fresnel_conductor(material.eta / n, material.k / n, c);
+        float n = NEEDS_ANY(TURNER_NEEDS_MEDIA) ? float(media_index(before)) : 1.0;
+        s.w_r *= fresnel_conductor(material.eta / n, material.k / n, float(c));
     }
     return s;
 }
@@ -114,7 +116,7 @@ void add(inout sum_t sum, vec3 term)
     sum = sum_t(value, lost);
 }
 
-// What a ray met; a transmissive surface between a medium and itself is none, not real.
+// What a ray met; a transmissive surface between a medium and itself is none, no boundary.
 struct meeting_t {
     surface_t surface;
     turner_gpu_material material;
@@ -134,10 +136,10 @@ meeting_t meet(ray_t ray, hit_t hit, uint64_t media)
 }
 
 // The surface as its lights see it; one that reflects no light asks none.
-shading_t shading_of(meeting_t met, vec3 V, vec3 weight)
+shading_t shading_of(meeting_t met, real3 V, vec3 weight)
 {
-    vec3 ng = dot(met.surface.ng, V) < 0.0 ? -met.surface.ng : met.surface.ng;
-    vec3 N = dot(met.surface.ns, ng) < 0.0 ? -met.surface.ns : met.surface.ns;
+    real3 ng = dot(met.surface.ng, V) < 0.0 ? -met.surface.ng : met.surface.ng;
+    real3 N = dot(met.surface.ns, ng) < 0.0 ? -met.surface.ns : met.surface.ns;
     bool dark = met.material.k_d == vec3(0.0) && met.material.k_s == vec3(0.0);
     return shading_t(met.surface, met.material, ng, N, V, weight, met.crossing.before,
                      dark ? scene.light_count : 0u);
@@ -191,9 +193,10 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
         if (any)
             met = meet(ray, search.hit, current.media);
         if (NEEDS_ANY(TURNER_NEEDS_MEDIA))
-            current.weight *= media_transmittance(met.crossing.before, ray.start + search.hit.t);
+            current.weight *= media_transmittance(met.crossing.before,
+                                                  float(ray.start + search.hit.t));
 
-        if (any && (shadow || !met.crossing.real)) {
+        if (any && (shadow || !met.crossing.boundary)) {
             // ---- straight on through it ----
             if (++crossings > scene.max_crossings)
                 break;
@@ -204,7 +207,7 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
                 continue;
             }
             to_light = current;
-            if (met.crossing.real)
+            if (met.crossing.boundary)
                 to_light.weight *= met.material.k_t;
             if (to_light.weight != vec3(0.0))
                 continue;
@@ -246,7 +249,8 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
                 }
             }
         } else if (!search.blocked) {
-            add(radiance, shadow ? current.weight : current.weight * background(ray.direction));
+            add(radiance, shadow ? current.weight : current.weight *
+                                                             background(vec3(ray.direction)));
         }
 
         crossings = 0u;

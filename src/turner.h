@@ -102,7 +102,7 @@ struct turner_render_options {
 struct turner_statistics {
     char device[256], driver[512];
     const char *traversal;    /* "bvh", "ray_query" or "reference" */
-    const char *precision;    /* "f32" or "extended" */
+    const char *precision;    /* "f32", "f64" or "extended" */
     uint64_t camera_rays, reflected_rays, refracted_rays, shadow_rays;
     uint64_t tir_rays;        /* reflected rays that total internal reflection sent */
     uint64_t camera_hits;     /* camera rays that met something */

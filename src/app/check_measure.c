@@ -229,7 +229,7 @@ static enum turner_result write_json(const struct session *session, const struct
     cJSON_AddStringToObject(object, "device", session->gpu.info.name);
     cJSON_AddStringToObject(object, "driver", session->gpu.info.driver);
     cJSON_AddStringToObject(object, "traversal",
-                            session->kernel.ray_query ? "ray_query" : "bvh");
+                            session->kernel.kind & TURNER_RAY_QUERY ? "ray_query" : "bvh");
     cJSON_AddNumberToObject(object, "cores", (double)sysconf(_SC_NPROCESSORS_ONLN));
     cJSON_AddNumberToObject(object, "runs", session->how->runs);
     cJSON_AddNumberToObject(object, "features", bits_set(TURNER_NEEDS_ALL));

@@ -128,7 +128,7 @@ enum turner_result turner_needs_print(const struct turner_scene *scene, const ch
     print_left_out(&needs);
     char line[160];
     snprintf(line, sizeof line, "%zu bytes of SPIR-V (%s), %.0f %% of the %zu with everything",
-             bytes, kernel->ray_query ? "ray_query" : "bvh",
+             bytes, kernel->kind & TURNER_RAY_QUERY ? "ray_query" : "bvh",
              100.0 * (double)bytes / (double)everything, everything);
     print_line("kernel", line);
     return TURNER_OK;
@@ -207,7 +207,7 @@ enum turner_result turner_needs_list(cJSON *list, const struct turner_scene *sce
     list_depth(object, scene);
     list_precision(object, scene);
     cJSON *size = cJSON_AddObjectToObject(object, "kernel");
-    cJSON_AddStringToObject(size, "traversal", kernel->ray_query ? "ray_query" : "bvh");
+    cJSON_AddStringToObject(size, "traversal", kernel->kind & TURNER_RAY_QUERY ? "ray_query" : "bvh");
     cJSON_AddNumberToObject(size, "spirv_bytes", (double)bytes);
     cJSON_AddNumberToObject(size, "spirv_bytes_everything", (double)everything);
     cJSON_AddItemToArray(list, object);

@@ -48,6 +48,13 @@ enum turner_result turner_flat_create(struct turner_flat *flat, const struct tur
                                       enum turner_order order);
 void turner_flat_destroy(struct turner_flat *flat);
 
+/* What rounding took from flat->primitives and flat->instances (rest.c), in their order: with it
+ * 48 binary digits of a number stand. */
+void turner_flat_primitive_rests(struct turner_gpu_primitive_rest *rests,
+                                 const struct turner_flat *flat, const struct turner_scene *scene);
+void turner_flat_instance_rests(struct turner_gpu_instance_rest *rests,
+                                const struct turner_flat *flat, const struct turner_scene *scene);
+
 /* Bounds of a primitive in its group, rounded outwards and then by two ulps of the largest
  * coordinate, so that every float intersection that the shaders accept lies inside. Infinite where
  * they do not fit a float. A cone's are exact: its discs reach r·sqrt(1 − n_i²) along axis i. */

@@ -6,14 +6,24 @@
 #include "base/memory.h"
 
 static const char *const array_names[TURNER_ARRAYS] = {
-    "BVH nodes", "primitives", "instances", "planes",   "triangle corners", "normals", "uvs",
-    "materials", "media",      "pictures",  "pictures", "lights",           "the scene"};
+    "BVH nodes", "primitives", "instances", "primitives", "instances", "planes", "triangle corners",
+    "normals",   "uvs",        "materials", "media",      "pictures",  "pictures", "lights",
+    "the scene"};
 
 static void set_vec3(float out[3], struct turner_vec3 v)
 {
     out[0] = (float)v.x;
     out[1] = (float)v.y;
     out[2] = (float)v.z;
+}
+
+/* The same, and what rounding takes from it. */
+static void set_both(float out[3], float rest[3], struct turner_vec3 v)
+{
+    set_vec3(out, v);
+    rest[0] = (float)(v.x - (double)out[0]);
+    rest[1] = (float)(v.y - (double)out[1]);
+    rest[2] = (float)(v.z - (double)out[2]);
 }
 
 static enum turner_result upload(struct turner_device_scene *device, struct turner_gpu *gpu,
@@ -67,9 +77,9 @@ static enum turner_result upload_planes(struct turner_device_scene *device, stru
 {
     struct turner_gpu_plane planes[TURNER_MAX_PLANES] = {0};
     for (size_t i = 0; i < scene->plane_count; i++) {
-        set_vec3(planes[i].point, scene->planes[i].point);
-        set_vec3(planes[i].normal, scene->planes[i].normal);
-        set_vec3(planes[i].tangent, scene->planes[i].tangent);
+        set_both(planes[i].point, planes[i].point_rest, scene->planes[i].point);
+        set_both(planes[i].normal, planes[i].normal_rest, scene->planes[i].normal);
+        set_both(planes[i].tangent, planes[i].tangent_rest, scene->planes[i].tangent);
         planes[i].material = material_word(scene, scene->planes[i].material);
     }
     return upload(device, gpu, TURNER_ARRAY_PLANES, planes, scene->plane_count * sizeof *planes);
@@ -94,6 +104,7 @@ static enum turner_result upload_media(struct turner_device_scene *device, struc
     struct turner_gpu_medium media[TURNER_MAX_MEDIA] = {0};
     for (size_t i = 0; i < scene->media_count; i++) {
         media[i].index = (float)scene->media[i].index;
+        media[i].index_rest = (float)(scene->media[i].index - (double)media[i].index);
         set_vec3(media[i].absorption, scene->media[i].absorption);
     }
     return upload(device, gpu, TURNER_ARRAY_MEDIA, media, scene->media_count * sizeof *media);
@@ -113,8 +124,8 @@ static enum turner_result upload_lights(struct turner_device_scene *device, stru
                              from->falloff == TURNER_FALLOFF_INVERSE_SQUARE;
         to->cos_inner = (float)from->cos_inner;
         to->cos_outer = (float)from->cos_outer;
-        set_vec3(to->position, from->position);
-        set_vec3(to->direction, from->direction);
+        set_both(to->position, to->position_rest, from->position);
+        set_both(to->direction, to->direction_rest, from->direction);
         set_vec3(to->power, from->power);
     }
     enum turner_result result = upload(device, gpu, TURNER_ARRAY_LIGHTS, lights,
@@ -155,6 +166,27 @@ static enum turner_result upload_images(struct turner_device_scene *device, stru
     return result;
 }
 
+static enum turner_result upload_rests(struct turner_device_scene *device, struct turner_gpu *gpu,
+                                       const struct turner_scene *scene,
+                                       const struct turner_flat *flat)
+{
+    struct turner_gpu_primitive_rest *primitives =
+        turner_calloc(flat->primitive_count + 1, sizeof *primitives);
+    struct turner_gpu_instance_rest *instances =
+        turner_calloc(flat->instance_count, sizeof *instances);
+    enum turner_result result;
+    turner_flat_primitive_rests(primitives, flat, scene);
+    turner_flat_instance_rests(instances, flat, scene);
+    TURNER_TRY_DONE(upload(device, gpu, TURNER_ARRAY_PRIMITIVE_RESTS, primitives,
+                           flat->primitive_count * sizeof *primitives));
+    TURNER_TRY_DONE(upload(device, gpu, TURNER_ARRAY_INSTANCE_RESTS, instances,
+                           flat->instance_count * sizeof *instances));
+done:
+    free(primitives);
+    free(instances);
+    return result;
+}
+
 /* The list of media the eye is inside of, as shaders/media.glsl keeps it: highest first. */
 static uint64_t media_list(const struct turner_camera *camera)
 {
@@ -181,10 +213,10 @@ static void set_camera(struct turner_gpu_scene *block, const struct turner_scene
     struct turner_vec3 u = turner_vec3_normalize(turner_vec3_cross(camera->up, w));
     struct turner_vec3 v = turner_vec3_cross(w, u);
     double s = 2 * tan(camera->vfov / 2) / (scene->settings.spd_grid ? height - 2 : height);
-    set_vec3(block->eye, camera->from);
-    set_vec3(block->right, turner_vec3_scale(u, s));
-    set_vec3(block->down, turner_vec3_scale(v, -s));
-    set_vec3(block->forward, turner_vec3_scale(w, -1));
+    set_both(block->eye, block->eye_rest, camera->from);
+    set_both(block->right, block->right_rest, turner_vec3_scale(u, s));
+    set_both(block->down, block->down_rest, turner_vec3_scale(v, -s));
+    set_both(block->forward, block->forward_rest, turner_vec3_scale(w, -1));
     block->center[0] = (float)(0.5 * width);
     block->center[1] = (float)(0.5 * height);
     block->inside = media_list(camera);
@@ -237,6 +269,8 @@ static enum turner_result upload_scene(struct turner_device_scene *device, struc
         .media = arrays[TURNER_ARRAY_MEDIA].address,
         .images = arrays[TURNER_ARRAY_IMAGES].address,
         .lights = arrays[TURNER_ARRAY_LIGHTS].address,
+        .primitive_rests = arrays[TURNER_ARRAY_PRIMITIVE_RESTS].address,
+        .instance_rests = arrays[TURNER_ARRAY_INSTANCE_RESTS].address,
         .root = flat->root,
         .plane_count = (uint32_t)scene->plane_count,
         .light_count = (uint32_t)scene->light_count,
@@ -249,6 +283,7 @@ static enum turner_result upload_scene(struct turner_device_scene *device, struc
         .shadows_tinted = settings->shadows == TURNER_SHADOWS_TINTED,
         .spd_rays = settings->spd_rays,
         .cutoff = (float)settings->cutoff,
+        .tmin = (float)settings->methods.tmin,
     };
     set_vec3(block.ambient, scene->ambient);
     set_camera(&block, scene);
@@ -280,6 +315,8 @@ enum turner_result turner_device_scene_create(struct turner_device_scene *device
     TURNER_TRY(upload_media(device, gpu, scene));
     TURNER_TRY(upload_lights(device, gpu, scene));
     TURNER_TRY(upload_images(device, gpu, scene));
+    if (scene->settings.methods.precision == TURNER_PRECISION_F64)
+        TURNER_TRY(upload_rests(device, gpu, scene, flat));
     if (ray_query)
         TURNER_TRY(turner_device_scene_build(device, gpu, flat));
     return upload_scene(device, gpu, scene, flat, needs, ray_query);

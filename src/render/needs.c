@@ -130,6 +130,27 @@ static void ask_of_scene(struct collector *needs, const struct turner_scene *sce
         ask(needs, TURNER_NEEDS_ENVIRONMENT, one(TURNER_ASKER_BACKGROUND, 0));
 }
 
+static uint32_t method_bits(const struct turner_methods *methods)
+{
+    static const uint32_t offsets[] = {
+        [TURNER_OFFSET_NONE] = TURNER_METHOD_OFFSET_NONE,
+        [TURNER_OFFSET_TMIN] = TURNER_METHOD_OFFSET_TMIN,
+        [TURNER_OFFSET_ULP] = TURNER_METHOD_OFFSET_ULP,
+    };
+    uint32_t bits = 0;
+    if (methods->sphere == TURNER_SPHERE_TEXTBOOK)
+        bits |= TURNER_METHOD_SPHERE_TEXTBOOK;
+    if (methods->triangle == TURNER_TRIANGLE_MOLLER_TRUMBORE)
+        bits |= TURNER_METHOD_MOLLER_TRUMBORE;
+    if (methods->offset != TURNER_OFFSET_ERROR_BOUND)
+        bits |= offsets[methods->offset];
+    if (methods->fresnel_cosine == TURNER_COSINE_NAIVE)
+        bits |= TURNER_METHOD_COSINE_NAIVE;
+    if (methods->schlick_side == TURNER_SCHLICK_INCIDENT)
+        bits |= TURNER_METHOD_SCHLICK_INCIDENT;
+    return bits;
+}
+
 struct turner_needs turner_needs_explain(struct turner_why why[TURNER_NEEDS_COUNT],
                                          const struct turner_scene *scene)
 {
@@ -155,7 +176,8 @@ struct turner_needs turner_needs_explain(struct turner_why why[TURNER_NEEDS_COUN
     ask_of_scene(&collected, scene);
     turner_usage_destroy(&usage);
 
-    struct turner_needs needs = {.bits = collected.bits};
+    struct turner_needs needs = {.bits = collected.bits,
+                                 .methods = method_bits(&scene->settings.methods)};
     bound_loops(&needs, scene);
     return needs;
 }

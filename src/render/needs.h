@@ -8,6 +8,7 @@
 
 struct turner_needs {
     uint32_t bits;          /* TURNER_NEEDS_… of shaders/shared.h */
+    uint32_t methods;       /* TURNER_METHOD_… of the same */
     uint32_t stack;         /* rays that may wait at once, at least 1 */
     uint32_t max_steps;     /* rays traced for one sample, at most */
     uint32_t max_crossings; /* transmissive surfaces on one straight line, at most */

@@ -71,23 +71,21 @@ static enum turner_result draw_on_device(struct turner_image *image,
     struct turner_gpu gpu;
     struct turner_kernel kernel = {0};
     struct turner_renderer renderer = {0};
-    bool ray_query;
+    unsigned kind;
     enum turner_result result;
     double start = turner_seconds();
     TURNER_TRY_DONE(turner_gpu_create(&gpu, options->device, false));
     statistics->seconds_device = turner_seconds() - start;
     snprintf(statistics->device, sizeof statistics->device, "%s", gpu.info.name);
     snprintf(statistics->driver, sizeof statistics->driver, "%s", gpu.info.driver);
-    enum turner_traversal wanted = options->traversal != TURNER_TRAVERSAL_AUTO
-                                       ? options->traversal
-                                       : scene->settings.methods.traversal;
-    TURNER_TRY_DONE(turner_choose_traversal(&ray_query, &gpu.info, wanted));
+    const struct turner_methods *methods = &scene->settings.methods;
+    TURNER_TRY_DONE(turner_choose_kernel(&kind, &gpu.info, methods, options->traversal));
     start = turner_seconds();
-    TURNER_TRY_DONE(turner_kernel_create(&kernel, ray_query, options));
+    TURNER_TRY_DONE(turner_kernel_create(&kernel, kind, options));
     statistics->seconds_compile = turner_seconds() - start;
     TURNER_TRY_DONE(turner_renderer_create(&renderer, &gpu, &kernel, scene, options, statistics));
-    statistics->traversal = ray_query ? "ray_query" : "bvh";
-    statistics->precision = "f32";
+    statistics->traversal = kind & TURNER_RAY_QUERY ? "ray_query" : "bvh";
+    statistics->precision = methods->precision == TURNER_PRECISION_F64 ? "f64" : "f32";
     TURNER_TRY_DONE(turner_renderer_draw(&renderer, image, options, statistics));
 done:
     turner_renderer_destroy(&renderer);

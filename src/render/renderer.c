@@ -1,5 +1,6 @@
 #include "render/renderer.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -36,17 +37,48 @@ enum turner_result turner_choose_traversal(bool *ray_query, const struct turner_
     return TURNER_OK;
 }
 
-enum turner_result turner_kernel_create(struct turner_kernel *kernel, bool ray_query,
+static unsigned kind_of(const struct turner_methods *methods)
+{
+    return (methods->precision == TURNER_PRECISION_F64 ? TURNER_F64 : 0) |
+           (methods->sphere == TURNER_SPHERE_DOUBLE ? TURNER_SPHERE_F64 : 0);
+}
+
+enum turner_result turner_choose_kernel(unsigned *kind, const struct turner_gpu_info *info,
+                                        const struct turner_methods *methods,
+                                        enum turner_traversal wanted)
+{
+    bool ray_query, f64 = methods->precision == TURNER_PRECISION_F64;
+    *kind = kind_of(methods);
+    if (*kind && !info->float64)
+        return turner_fail(TURNER_DEVICE, "device \"%s\" has no 64-bit floats; leave out %s",
+                           info->name, f64 ? "precision=f64" : "sphere=f64");
+    if (wanted == TURNER_TRAVERSAL_AUTO)
+        wanted = methods->traversal;
+    if (f64 && wanted == TURNER_TRAVERSAL_RAY_QUERY)
+        return turner_fail(TURNER_USAGE, "ray queries are in 32-bit floats: choose traversal bvh "
+                                         "for precision f64");
+    TURNER_TRY(turner_choose_traversal(&ray_query, info, f64 ? TURNER_TRAVERSAL_BVH : wanted));
+    *kind |= ray_query ? TURNER_RAY_QUERY : 0;
+    return TURNER_OK;
+}
+
+enum turner_result turner_kernel_create(struct turner_kernel *kernel, unsigned kind,
                                         const struct turner_render_options *options)
 {
+    static const char *const names[] = {"TURNER_RAY_QUERY", "TURNER_F64", "TURNER_SPHERE_F64"};
+    const char *defines[sizeof names / sizeof *names];
+    size_t count = 0;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (kind & 1u << i)
+            defines[count++] = names[i];
+    }
     memset(kernel, 0, sizeof *kernel);
-    kernel->ray_query = ray_query;
+    kernel->kind = kind;
     struct turner_shader_source source;
     enum turner_result result;
     TURNER_TRY_DONE(turner_shader_source_create(&source, "render.comp", options->shader_dirs,
                                                 options->shader_dir_count));
-    const char *defines[] = {"TURNER_RAY_QUERY"};
-    TURNER_TRY_DONE(turner_compile(&kernel->spirv, &source, defines, ray_query ? 1 : 0));
+    TURNER_TRY_DONE(turner_compile(&kernel->spirv, &source, defines, count));
 done:
     turner_shader_source_destroy(&source);
     return result;
@@ -70,6 +102,7 @@ struct turner_kernel_constants turner_kernel_constants(const struct turner_needs
         {TURNER_CONSTANT_NEEDS, needs->bits},
         {TURNER_CONSTANT_STACK, needs->stack > 1 ? round_up(needs->stack, 8) : 1},
         {TURNER_CONSTANT_BVH_STACK, round_up(bvh_depth + 1, 16)},
+        {TURNER_CONSTANT_METHODS, needs->methods},
     }};
 }
 
@@ -138,8 +171,9 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
                                           struct turner_statistics *statistics)
 {
     memset(renderer, 0, sizeof *renderer);
+    assert((kernel->kind & ~(unsigned)TURNER_RAY_QUERY) == kind_of(&scene->settings.methods));
     renderer->gpu = gpu;
-    renderer->ray_query = kernel->ray_query;
+    renderer->ray_query = kernel->kind & TURNER_RAY_QUERY;
     renderer->needs = turner_needs_of(scene);
     renderer->width = scene->settings.width;
     renderer->height = scene->settings.height;

@@ -6,20 +6,27 @@
 #include "gpu/program.h"
 #include "render/device_scene.h"
 
-/* The shaders compiled to SPIR-V, for any scene. */
+/* What the shaders' source is compiled to: the names are those of #defines. */
+enum turner_kernel_kind {
+    TURNER_RAY_QUERY = 1 << 0,  /* the device's acceleration structures; without: our own */
+    TURNER_F64 = 1 << 1,        /* method precision=f64; the device has float64 */
+    TURNER_SPHERE_F64 = 1 << 2, /* method sphere=f64; the same */
+};
+
+/* The shaders compiled to SPIR-V, for any scene whose methods want this kind. */
 struct turner_kernel {
-    bool ray_query;
+    unsigned kind; /* TURNER_RAY_QUERY | … */
     struct turner_spirv spirv;
 };
 
 /* TURNER_BAD_INPUT with file, line and text for a broken shader. */
-enum turner_result turner_kernel_create(struct turner_kernel *kernel, bool ray_query,
+enum turner_result turner_kernel_create(struct turner_kernel *kernel, unsigned kind,
                                         const struct turner_render_options *options);
 void turner_kernel_destroy(struct turner_kernel *kernel);
 
 /* What specialises a kernel to a scene. */
 struct turner_kernel_constants {
-    struct turner_constant at[3];
+    struct turner_constant at[4];
 };
 
 /* `bvh_depth` is turner_flat.max_depth. */
@@ -48,7 +55,15 @@ struct turner_renderer {
 enum turner_result turner_choose_traversal(bool *ray_query, const struct turner_gpu_info *info,
                                            enum turner_traversal wanted);
 
-/* Builds, specialises and uploads; fills sizes and times of `statistics`. */
+/* The kind of kernel that draws with these methods on the device; `wanted` auto takes the methods'.
+ * TURNER_DEVICE as above, and without float64 where they want it; TURNER_USAGE for precision f64
+ * with ray queries, which are in floats. */
+enum turner_result turner_choose_kernel(unsigned *kind, const struct turner_gpu_info *info,
+                                        const struct turner_methods *methods,
+                                        enum turner_traversal wanted);
+
+/* Builds, specialises and uploads; fills sizes and times of `statistics`. The kernel is of the kind
+ * that turner_choose_kernel gives for the scene. */
 enum turner_result turner_renderer_create(struct turner_renderer *renderer, struct turner_gpu *gpu,
                                           const struct turner_kernel *kernel,
                                           const struct turner_scene *scene,

@@ -36,7 +36,7 @@ enum turner_fresnel { TURNER_FRESNEL_NONE, TURNER_FRESNEL_SCHLICK, TURNER_FRESNE
 
 /* Ways to compute the same thing; 0 is the default of each, the one that holds everywhere.
  * src/scene/methods.c says what each is and where it comes from. */
-enum turner_sphere_method { TURNER_SPHERE_ROBUST, TURNER_SPHERE_TEXTBOOK, TURNER_SPHERE_F64 };
+enum turner_sphere_method { TURNER_SPHERE_ROBUST, TURNER_SPHERE_TEXTBOOK, TURNER_SPHERE_DOUBLE };
 enum turner_triangle_method { TURNER_TRIANGLE_WATERTIGHT, TURNER_TRIANGLE_MOLLER_TRUMBORE };
 enum turner_offset_method {
     TURNER_OFFSET_ERROR_BOUND,

@@ -12,7 +12,7 @@ static struct turner_kernel kernel;
 
 static enum turner_result render(struct turner_image *image, const struct turner_scene *scene)
 {
-    const struct turner_render_options options = {.unspecialised = kernel.ray_query};
+    const struct turner_render_options options = {.unspecialised = kernel.kind & TURNER_RAY_QUERY};
     struct turner_statistics statistics = {0};
     struct turner_renderer renderer;
     *image = (struct turner_image){0};

@@ -49,3 +49,6 @@ foreach(what IN ITEMS files stats nonfinite)
         ${CMAKE_CURRENT_LIST_DIR}/command_output.py ${what})
     set_property(TEST output_${what} APPEND PROPERTY ENVIRONMENT "TURNER=$<TARGET_FILE:turner>")
 endforeach()
+
+turner_device_test(methods Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/methods.py
+    $<TARGET_FILE:turner> ${PROJECT_SOURCE_DIR})
