@@ -109,7 +109,9 @@ enum turner_result turner_povray_render(struct turner_image *image,
     char *arguments[] = {"povray", input, output, width, height, "+FE", "+Q9", "-A", "-D", "-P",
                          "-C", "-UA", "-GA", "+GF", "+GW", "+SR1", "+SC1", NULL};
     TURNER_TRY(run(folder, log, arguments));
-    TURNER_TRY(turner_image_read(image, exr, false));
+    if (turner_image_read(image, exr, false) != TURNER_OK)
+        return turner_fail_within(TURNER_DEVICE, "povray left no picture (its words are in %s/%s)",
+                                  folder, log);
     if (image->width != scene->settings.width || image->height != scene->settings.height)
         return turner_fail(TURNER_DEVICE, "%s: povray drew %d×%d pixels, not %d×%d; its words are in "
                            "%s/%s", exr, image->width, image->height, scene->settings.width,

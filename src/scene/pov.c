@@ -144,6 +144,7 @@ enum turner_result turner_pov_write(const struct turner_scene *scene, const char
 {
     TURNER_TRY(check_settings(scene));
     TURNER_TRY(turner_pov_check_materials(scene));
+    TURNER_TRY(turner_pov_check_patterns(scene));
     TURNER_TRY(turner_pov_check_solids(scene));
     char *text = NULL;
     size_t size = 0;

@@ -17,6 +17,9 @@ const char *turner_pov_material_name(const struct turner_scene *scene, uint32_t 
 /* Whether the formulas of every material that is used, and of the lights, are among POV-Ray's. */
 enum turner_result turner_pov_check_materials(const struct turner_scene *scene);
 
+/* Whether patterns are on planes and meshes only. */
+enum turner_result turner_pov_check_patterns(const struct turner_scene *scene);
+
 /* Whether each transmissive thing is a closed solid of its own, clear of the others, and the camera
  * where it says it is: POV-Ray finds its way in and out of media by that alone. */
 enum turner_result turner_pov_check_solids(const struct turner_scene *scene);

@@ -166,6 +166,31 @@ static void write_instances(FILE *out, const struct turner_scene *scene)
     free(declared);
 }
 
+static enum turner_result check_group(const struct turner_scene *scene,
+                                      const struct turner_group *group, uint32_t override)
+{
+    for (size_t i = 0; i < group->sphere_count + group->cone_count; i++) {
+        bool cone = i >= group->sphere_count;
+        uint32_t m = override != TURNER_NONE ? override
+                     : cone ? group->cones[i - group->sphere_count].material
+                            : group->spheres[i].material;
+        if (scene->materials[m].pattern != TURNER_PATTERN_NONE)
+            return turner_fail(TURNER_BAD_INPUT, "%s is on a %s, round which POV-Ray lays a pattern "
+                               "otherwise: use it on planes and meshes only",
+                               turner_pov_material_name(scene, m), cone ? "cone" : "sphere");
+    }
+    return TURNER_OK;
+}
+
+enum turner_result turner_pov_check_patterns(const struct turner_scene *scene)
+{
+    TURNER_TRY(check_group(scene, &scene->groups[0], TURNER_NONE));
+    for (size_t i = 0; i < scene->instance_count; i++)
+        TURNER_TRY(check_group(scene, &scene->groups[scene->instances[i].group],
+                               scene->instances[i].material));
+    return TURNER_OK;
+}
+
 void turner_pov_objects(FILE *out, const struct turner_scene *scene)
 {
     for (size_t i = 0; i < scene->plane_count; i++) {

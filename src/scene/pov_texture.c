@@ -133,9 +133,6 @@ static enum turner_result check_local(const struct turner_scene *scene, uint32_t
     if (m->pattern == TURNER_PATTERN_IMAGE)
         return turner_fail(TURNER_BAD_INPUT, "%s: POV-Ray does not filter a picture as turner does: "
                            "use a checker or a plain colour", name);
-    if (m->pattern == TURNER_PATTERN_CHECKER && (m->uv_scale[0] == 0 || m->uv_scale[1] == 0))
-        return turner_fail(TURNER_BAD_INPUT, "%s: a checker of scale 0 has no size in POV-Ray: "
-                           "give it another scale", name);
     return TURNER_OK;
 }
 
@@ -245,6 +242,13 @@ void turner_pov_texture(FILE *out, const struct turner_scene *scene, uint32_t ma
         write_layer(out, scene, m, &layers, i, plane);
 }
 
+/* POV-Ray goes straight on where the index does not change, and counts no bounce; ours is counted.
+ * One step of the 32 bits it keeps an index in makes it a surface to be counted. */
+static double index_of(const struct turner_medium *medium)
+{
+    return medium->index == 1 ? 1 + 0x1p-23 : medium->index;
+}
+
 void turner_pov_declare_materials(FILE *out, const struct turner_scene *scene)
 {
     bool *used = turner_pov_materials_used(scene);
@@ -259,7 +263,7 @@ void turner_pov_declare_materials(FILE *out, const struct turner_scene *scene)
         if (turner_pov_zero(m->k_t))
             continue;
         const struct turner_medium *medium = &scene->media[m->medium];
-        fprintf(out, "#declare I%u = interior { ior %.17g", (unsigned)i, medium->index);
+        fprintf(out, "#declare I%u = interior { ior %.17g", (unsigned)i, index_of(medium));
         if (!turner_pov_zero(medium->absorption)) {
             fputs(" media { method 1 intervals 1 samples 1, 1 absorption rgb ", out);
             turner_pov_vector(out, medium->absorption);
