@@ -1,5 +1,6 @@
 #version 460
-// The renderer's only kernel: one sample of every pixel of a tile. Read on in whitted.glsl.
+// The renderer's only kernel: one sample of every pixel of a tile, or samples wherever a list says.
+// Read on in whitted.glsl.
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference2 : require
 #extension GL_EXT_scalar_block_layout : require
@@ -18,6 +19,11 @@ layout(local_size_x = TURNER_WORKGROUP * TURNER_WORKGROUP) in;
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer pixel_array
 {
     vec4 at[];
+};
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer position_array
+{
+    vec2 at[]; // in the picture, in pixels
 };
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer counter_block
@@ -49,21 +55,38 @@ void add_counts(turner_gpu_counters counts)
         atomicMax(total.the.largest_depth, depth);
 }
 
+// The sample of this lane, or false where there is none: its place in the picture and in `pixels`.
+bool sample_of_lane(out vec2 position, out uint index)
+{
+    if (dispatch.positions != 0ul) {
+        index = gl_WorkGroupID.x * (TURNER_WORKGROUP * TURNER_WORKGROUP) + gl_LocalInvocationIndex;
+        if (index >= dispatch.count)
+            return false;
+        position = position_array(dispatch.positions).at[index];
+        return true;
+    }
+    uvec2 pixel = gl_WorkGroupID.xy * TURNER_WORKGROUP + morton(gl_LocalInvocationIndex);
+    index = pixel.y * dispatch.tile_width + pixel.x;
+    position = vec2(uvec2(dispatch.tile_x, dispatch.tile_y) + pixel) +
+               vec2(dispatch.sample_x, dispatch.sample_y);
+    return pixel.x < dispatch.tile_width && pixel.y < dispatch.tile_height;
+}
+
 void main()
 {
     scene = scene_block(dispatch.scene).the;
-    uvec2 pixel = gl_WorkGroupID.xy * TURNER_WORKGROUP + morton(gl_LocalInvocationIndex);
+    scene.max_depth = dispatch.max_depth;
+    scene.cutoff = dispatch.cutoff;
     turner_gpu_counters counts;
     for (uint kind = 0u; kind < TURNER_COUNTS; kind++)
         counts.low[kind] = 0u;
     counts.largest_depth = 0u;
 
-    if (pixel.x < dispatch.tile_width && pixel.y < dispatch.tile_height) {
-        vec2 position = vec2(uvec2(dispatch.tile_x, dispatch.tile_y) + pixel) +
-                        vec2(dispatch.sample_x, dispatch.sample_y);
+    vec2 position;
+    uint index;
+    if (sample_of_lane(position, index)) {
         vec4 result = whitted(camera_ray(position), counts);
         pixel_array pixels = pixel_array(dispatch.pixels);
-        uint index = pixel.y * dispatch.tile_width + pixel.x;
         pixels.at[index] = dispatch.first != 0u ? result : pixels.at[index] + result;
     }
     add_counts(counts);

@@ -281,12 +281,14 @@ TURNER_STRUCT(turner_gpu_counters)
     uint largest_depth;
 };
 
-/* Push constants. */
+/* Push constants. One sample of every pixel of a tile, or those of a list. */
 TURNER_STRUCT(turner_gpu_dispatch)
 {
     TURNER_UINT64 scene;
-    TURNER_UINT64 pixels;   /* tile_width × tile_height × 4 floats: sums of radiance and pruned */
+    TURNER_UINT64 pixels;    /* 4 floats a pixel of the tile or sample of the list: sums of
+                                radiance and pruned */
     TURNER_UINT64 counters;
+    TURNER_UINT64 positions; /* list: `count` places in the picture, in pixels; or 0: a tile */
     uint tile_x;             /* the tile's place in the picture */
     uint tile_y;
     uint tile_width;
@@ -294,7 +296,9 @@ TURNER_STRUCT(turner_gpu_dispatch)
     float sample_x;          /* of the pixel, in [0,1) */
     float sample_y;
     uint first;              /* 1: the sums start with this sample */
-    uint pad;
+    uint count;
+    uint max_depth;
+    float cutoff;
 };
 
 #ifndef GL_core_profile

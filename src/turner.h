@@ -109,6 +109,8 @@ struct turner_statistics {
     uint64_t unfinished;      /* samples that ran into a loop's bound; 0 in a right picture */
     int largest_depth;        /* of a ray that was followed */
     double pruned_mean, pruned_max;
+    double samples_mean;      /* of a pixel */
+    int samples_max;
     uint64_t nonfinite;       /* pixels that are not finite, and the first one's place */
     int nonfinite_x, nonfinite_y;
     double seconds_parse, seconds_device, seconds_build, seconds_compile, seconds_upload,

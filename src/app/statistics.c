@@ -74,6 +74,10 @@ static cJSON *statistics_object(const struct turner_scene *scene,
     add_count(rays, "unfinished", s->unfinished);
     cJSON_AddNumberToObject(object, "largest_depth", s->largest_depth);
 
+    cJSON *samples = cJSON_AddObjectToObject(object, "samples");
+    cJSON_AddNumberToObject(samples, "mean", s->samples_mean);
+    cJSON_AddNumberToObject(samples, "max", s->samples_max);
+
     cJSON *pruned = cJSON_AddObjectToObject(object, "pruned");
     cJSON_AddNumberToObject(pruned, "mean", s->pruned_mean);
     cJSON_AddNumberToObject(pruned, "max", s->pruned_max);

@@ -107,6 +107,7 @@ enum turner_result turner_render(struct turner_image *image, const struct turner
         statistics = &unused;
     double seconds_parse = statistics == &unused ? 0 : statistics->seconds_parse;
     memset(statistics, 0, sizeof *statistics);
+    statistics->samples_mean = statistics->samples_max = scene->settings.spp;
     statistics->seconds_parse = seconds_parse; /* whoever loaded the scene knows it */
 
     memset(image, 0, sizeof *image);

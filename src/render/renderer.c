@@ -8,14 +8,7 @@
 #include "base/memory.h"
 #include "gpu/include.h"
 #include "gpu/specialise.h"
-
-/* A tile should take about this long: short for a watchdog and for Ctrl-C, long beside the cost of
- * a submission. */
-#define TILE_SECONDS_LONG 0.4
-#define TILE_SECONDS_SHORT 0.1
-#define TILE_FIRST 128
-#define TILE_MAX 512
-#define TILE_MIN 16
+#include "render/adaptive.h"
 
 double turner_seconds(void)
 {
@@ -149,11 +142,17 @@ static enum turner_result create(struct turner_renderer *renderer,
     if (renderer->ray_query)
         TURNER_TRY(turner_program_bind_acceleration(&renderer->program, gpu, TURNER_BINDING_TLAS,
                                                     renderer->scene.top.handle));
-    uint64_t edge = (uint64_t)(renderer->tile ? renderer->tile : TILE_MAX);
-    TURNER_TRY(turner_buffer_create(&renderer->pixels, gpu, edge * edge * 4 * sizeof(float), 0,
+    bool adaptive = turner_adaptive_wanted(&renderer->settings);
+    uint64_t edge = (uint64_t)(renderer->tile ? renderer->tile : TURNER_TILE_MAX);
+    uint64_t pixels = adaptive ? TURNER_LIST_MAX : edge * edge;
+    TURNER_TRY(turner_buffer_create(&renderer->pixels, gpu, pixels * 4 * sizeof(float), 0,
                                     TURNER_MEMORY_HOST, "a tile of pixels"));
     TURNER_TRY(turner_buffer_create(&renderer->counters, gpu, sizeof(struct turner_gpu_counters),
                                     0, TURNER_MEMORY_HOST, "ray counters"));
+    if (adaptive)
+        TURNER_TRY(turner_buffer_create(&renderer->positions, gpu,
+                                        TURNER_LIST_MAX * 2 * sizeof(float), 0,
+                                        TURNER_MEMORY_HOST, "a list of samples"));
     statistics->seconds_build = built - start;
     statistics->seconds_compile += specialised - built;
     statistics->seconds_upload = turner_seconds() - specialised;
@@ -175,9 +174,7 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
     renderer->gpu = gpu;
     renderer->ray_query = kernel->kind & TURNER_RAY_QUERY;
     renderer->needs = turner_needs_of(scene);
-    renderer->width = scene->settings.width;
-    renderer->height = scene->settings.height;
-    renderer->spp = scene->settings.spp;
+    renderer->settings = scene->settings;
     renderer->tile = options->tile;
     enum turner_result result = create(renderer, kernel, scene, options, statistics);
     if (result != TURNER_OK)
@@ -192,119 +189,9 @@ void turner_renderer_destroy(struct turner_renderer *renderer)
         return;
     turner_buffer_destroy(gpu, &renderer->counters);
     turner_buffer_destroy(gpu, &renderer->pixels);
+    turner_buffer_destroy(gpu, &renderer->positions);
     turner_device_scene_destroy(gpu, &renderer->scene);
     turner_program_destroy(gpu, &renderer->program);
     turner_flat_destroy(&renderer->flat);
     memset(renderer, 0, sizeof *renderer);
-}
-
-struct tile {
-    int x, y, width, height;
-};
-
-static enum turner_result trace_sample(struct turner_renderer *renderer, struct tile tile,
-                                       int sample)
-{
-    double sample_x, sample_y;
-    turner_sample_position(&sample_x, &sample_y, sample, renderer->spp);
-    struct turner_gpu_dispatch push = {
-        .scene = renderer->scene.arrays[TURNER_ARRAY_SCENE].address,
-        .pixels = renderer->pixels.address,
-        .counters = renderer->counters.address,
-        .tile_x = (uint32_t)tile.x,
-        .tile_y = (uint32_t)tile.y,
-        .tile_width = (uint32_t)tile.width,
-        .tile_height = (uint32_t)tile.height,
-        .sample_x = (float)sample_x,
-        .sample_y = (float)sample_y,
-        .first = sample == 0,
-    };
-    VkCommandBuffer commands;
-    TURNER_TRY(turner_gpu_begin(renderer->gpu, &commands));
-    turner_program_dispatch(commands, &renderer->program, &push,
-                            ((uint32_t)tile.width + TURNER_WORKGROUP - 1) / TURNER_WORKGROUP,
-                            ((uint32_t)tile.height + TURNER_WORKGROUP - 1) / TURNER_WORKGROUP, 1);
-    return turner_gpu_submit_wait(renderer->gpu, commands);
-}
-
-/* The mean of the samples into the picture. */
-static void read_back(const struct turner_renderer *renderer, struct turner_image *image,
-                      struct tile tile)
-{
-    const float *from = renderer->pixels.mapped;
-    float samples = (float)renderer->spp;
-    for (int y = 0; y < tile.height; y++) {
-        float *to = image->rgba +
-                    4 * ((size_t)(tile.y + y) * (size_t)image->width + (size_t)tile.x);
-        for (int i = 0; i < 4 * tile.width; i++)
-            *to++ = *from++ / samples;
-    }
-}
-
-static void add_counters(const struct turner_renderer *renderer,
-                         struct turner_statistics *statistics)
-{
-    const struct turner_gpu_counters *c = renderer->counters.mapped;
-    uint64_t counts[TURNER_COUNTS];
-    for (int i = 0; i < TURNER_COUNTS; i++)
-        counts[i] = c->low[i] | (uint64_t)c->high[i] << 32;
-    statistics->camera_rays += counts[TURNER_COUNT_CAMERA];
-    statistics->reflected_rays += counts[TURNER_COUNT_REFLECTED];
-    statistics->refracted_rays += counts[TURNER_COUNT_REFRACTED];
-    statistics->shadow_rays += counts[TURNER_COUNT_SHADOW];
-    statistics->tir_rays += counts[TURNER_COUNT_TIR];
-    statistics->camera_hits += counts[TURNER_COUNT_CAMERA_HITS];
-    statistics->unfinished += counts[TURNER_COUNT_UNFINISHED];
-    if ((int)c->largest_depth > statistics->largest_depth)
-        statistics->largest_depth = (int)c->largest_depth;
-}
-
-static bool report(const struct turner_render_options *options, double share)
-{
-    return !options->progress || options->progress(share, options->user);
-}
-
-enum turner_result turner_renderer_draw(struct turner_renderer *renderer,
-                                        struct turner_image *image,
-                                        const struct turner_render_options *options,
-                                        struct turner_statistics *statistics)
-{
-    memset(renderer->counters.mapped, 0, sizeof(struct turner_gpu_counters));
-    int edge = renderer->tile ? renderer->tile : TILE_FIRST;
-    double pixels = (double)image->width * image->height, done = 0;
-    if (!report(options, 0))
-        return turner_fail(TURNER_INTERRUPTED, "interrupted");
-
-    /* rows of tiles; the edge changes between rows only, so that tiles cover the picture */
-    for (int y = 0, next_edge = edge; y < image->height; y += edge, edge = next_edge) {
-        for (int x = 0; x < image->width; x += edge) {
-            struct tile tile = {x, y, edge, edge};
-            if (tile.width > image->width - x)
-                tile.width = image->width - x;
-            if (tile.height > image->height - y)
-                tile.height = image->height - y;
-            double start = turner_seconds();
-            for (int sample = 0; sample < renderer->spp; sample++) {
-                double before = turner_seconds();
-                TURNER_TRY(trace_sample(renderer, tile, sample));
-                double seconds = turner_seconds() - before;
-                if (!renderer->tile && seconds > TILE_SECONDS_LONG && edge > TILE_MIN)
-                    next_edge = edge / 2;
-                else if (!renderer->tile && seconds < TILE_SECONDS_SHORT && edge < TILE_MAX &&
-                         next_edge >= edge)
-                    next_edge = edge * 2;
-                double share =
-                    done + (double)tile.width * tile.height * (sample + 1) / renderer->spp;
-                if (!report(options, share / pixels))
-                    return turner_fail(TURNER_INTERRUPTED, "interrupted");
-            }
-            double traced = turner_seconds();
-            read_back(renderer, image, tile);
-            statistics->seconds_trace += traced - start;
-            statistics->seconds_read_back += turner_seconds() - traced;
-            done += (double)tile.width * tile.height;
-        }
-    }
-    add_counters(renderer, statistics);
-    return TURNER_OK;
 }

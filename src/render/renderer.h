@@ -44,10 +44,12 @@ struct turner_renderer {
     struct turner_flat flat;
     struct turner_device_scene scene;
     struct turner_program program;
-    struct turner_buffer pixels;   /* one tile */
+    struct turner_buffer pixels;    /* of one tile, or results of one list */
+    struct turner_buffer positions; /* of one list; adaptive pictures only */
     struct turner_buffer counters;
-    int width, height, spp;
-    int tile; /* fixed edge in pixels, or 0: follows the time a tile takes */
+    struct turner_settings settings;
+    int tile;    /* fixed edge in pixels, or 0: follows the time a tile takes */
+    size_t list; /* samples of a list traced at once: follows the time they take */
 };
 
 /* Which traversal a device gets; TURNER_DEVICE names the missing extension when `wanted` is
@@ -71,12 +73,25 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
                                           struct turner_statistics *statistics);
 void turner_renderer_destroy(struct turner_renderer *renderer);
 
+#define TURNER_TILE_MAX 512       /* edge in pixels */
+#define TURNER_LIST_MAX (1u << 16) /* samples; no more than pixels of the largest tile */
+
+/* Traces `count` samples at `positions` (in the picture, in pixels, row 0 at the top) into `results`
+ * (radiance and pruned weight each), followed to `depth` and `cutoff`, which need not be those of
+ * the settings, `depth` not more. Counts go to the renderer's counters. */
+enum turner_result turner_renderer_trace(struct turner_renderer *renderer, int depth, double cutoff,
+                                         const float (*positions)[2], size_t count,
+                                         float (*results)[4]);
+
 /* Traces the picture into `image` (width × height of the scene's settings); adds to the counts and
  * times of `statistics`. */
 enum turner_result turner_renderer_draw(struct turner_renderer *renderer,
                                         struct turner_image *image,
                                         const struct turner_render_options *options,
                                         struct turner_statistics *statistics);
+
+/* Tells the caller of the library how far it is; TURNER_INTERRUPTED when that wants no more. */
+enum turner_result turner_report(const struct turner_render_options *options, double share);
 
 /* Seconds of a clock that only goes forward. */
 double turner_seconds(void);

@@ -1,0 +1,52 @@
+/* Pixels divided into squares, and those into four again where it pays: the samples of a square are
+ * its corners and its centre. Whitted, An Improved Illumination Model, CACM 23 (1980), section 5. */
+#ifndef TURNER_RENDER_CELLS_H
+#define TURNER_RENDER_CELLS_H
+
+#include "render/lattice.h"
+
+#define TURNER_CELL_SAMPLES 5 /* of one square */
+#define TURNER_CELL_SPLIT 8   /* that a division counts: four edges' middles, four centres */
+
+struct turner_cell {
+    uint32_t corner[4]; /* samples: top left, top right, bottom left, bottom right */
+    uint32_t center;
+    uint16_t x, y;      /* from the pixel's top left, in its own edge lengths, 2^−level pixels */
+    uint8_t level;
+    bool split;         /* to be divided next */
+    float measure;      /* for whoever decides */
+};
+
+/* A pixel that is not finished. */
+struct turner_patch {
+    int x, y;
+    int samples;         /* so far; those shared with neighbouring squares count twice */
+    size_t first, count; /* its cells */
+};
+
+/* Patches and their cells; cells of one patch lie together, in the order of their divisions. */
+struct turner_cells {
+    struct turner_lattice *lattice; /* not owned */
+    struct turner_patch *patches;
+    struct turner_cell *cells, *next;
+    size_t patch_count, patch_capacity, cell_count, cell_capacity, next_count, next_capacity;
+};
+
+void turner_cells_destroy(struct turner_cells *cells);
+
+/* Begins a pixel as one square; its samples are in the lattice then, not yet traced. */
+void turner_cells_begin(struct turner_cells *cells, int x, int y);
+
+/* The sample in a pixel's centre, and that in its top left corner. */
+uint32_t turner_cells_center(struct turner_lattice *lattice, int x, int y);
+uint32_t turner_cells_corner(struct turner_lattice *lattice, int x, int y);
+
+/* Divides every cell with `split`; patches without one are finished and left out. */
+void turner_cells_divide(struct turner_cells *cells);
+
+/* The picture's value there: over the pixel, of the means of each square's centre and the mean of
+ * its corners. */
+void turner_cells_value(float value[4], const struct turner_cells *cells,
+                        const struct turner_patch *patch);
+
+#endif

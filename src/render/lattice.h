@@ -1,0 +1,26 @@
+/* Samples at dyadic places of the picture, each traced once however many cells meet there. */
+#ifndef TURNER_RENDER_LATTICE_H
+#define TURNER_RENDER_LATTICE_H
+
+#include "render/renderer.h"
+
+struct turner_lattice {
+    int shift;             /* places are (x, y) · 2^−shift pixels */
+    uint64_t *keys;        /* hash table: place + 1, or 0 where it is empty */
+    uint32_t *indices;     /* of the sample there */
+    size_t slots;          /* a power of two, or 0 */
+    float (*positions)[2]; /* in pixels, `count` */
+    float (*values)[4];    /* radiance and pruned weight of the first `traced` */
+    size_t count, traced, capacity;
+};
+
+/* Takes no memory yet; release with turner_lattice_destroy. */
+void turner_lattice_create(struct turner_lattice *lattice, int shift);
+void turner_lattice_destroy(struct turner_lattice *lattice);
+/* Forgets all samples. */
+void turner_lattice_clear(struct turner_lattice *lattice);
+
+/* The sample at a place, a new one if there was none. */
+uint32_t turner_lattice_at(struct turner_lattice *lattice, uint32_t x, uint32_t y);
+
+#endif
