@@ -9,6 +9,7 @@
 enum turner_result turner_cmd_render(int argc, char **argv);
 enum turner_result turner_cmd_compare(int argc, char **argv);
 enum turner_result turner_cmd_check(int argc, char **argv);
+enum turner_result turner_cmd_chart(int argc, char **argv);
 enum turner_result turner_cmd_devices(int argc, char **argv);
 enum turner_result turner_cmd_params(int argc, char **argv);
 enum turner_result turner_cmd_export(int argc, char **argv);
@@ -33,6 +34,7 @@ enum turner_result turner_option_choice(int *out, const char *option, const char
 struct turner_progress_bar {
     bool on;
     double start, shown; /* seconds */
+    const char *what;    /* what runs now, shown after the figures; NULL: nothing */
 };
 void turner_progress_begin(struct turner_progress_bar *bar, bool quiet);
 /* For turner_render_options.progress; `user` is the bar. */

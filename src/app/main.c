@@ -15,6 +15,7 @@ static const struct {
     {"render", "draw a scene into a picture", turner_cmd_render},
     {"compare", "say how much two pictures differ", turner_cmd_compare},
     {"check", "read scenes or shaders and say what is wrong with them", turner_cmd_check},
+    {"chart", "chart speed against accuracy for a grid of settings", turner_cmd_chart},
     {"params", "list the methods that can be chosen, and where they come from", turner_cmd_params},
     {"export", "write a scene for POV-Ray, a second opinion", turner_cmd_export},
     {"devices", "list the devices and what each can do", turner_cmd_devices},

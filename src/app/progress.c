@@ -37,9 +37,8 @@ bool turner_progress_show(double share, void *user)
     double elapsed = now - bar->start;
     fprintf(stderr, "\r[%s] %3.0f %%  %.1f s", cells, 100 * share, elapsed);
     if (share > 0.05 && share < 1)
-        fprintf(stderr, ", %.0f s to go  ", elapsed * (1 - share) / share);
-    else
-        fprintf(stderr, "               ");
+        fprintf(stderr, ", %.0f s to go", elapsed * (1 - share) / share);
+    fprintf(stderr, "%s%s\033[K", bar->what ? "  " : "", bar->what ? bar->what : "");
     fflush(stderr);
     return true;
 }
