@@ -100,7 +100,8 @@ static void write_light(FILE *out, const struct turner_light *light, struct turn
     fputs("\n}\n", out);
 }
 
-static void write_scene(FILE *out, const struct turner_scene *scene)
+static void write_scene(FILE *out, const struct turner_scene *scene,
+                        const struct turner_pov_holes *holes)
 {
     const struct turner_settings *s = &scene->settings;
     fprintf(out,
@@ -115,7 +116,7 @@ static void write_scene(FILE *out, const struct turner_scene *scene)
     for (size_t i = 0; i < scene->light_count; i++)
         write_light(out, &scene->lights[i], scene->camera.from);
     turner_pov_declare_materials(out, scene);
-    turner_pov_objects(out, scene);
+    turner_pov_objects(out, scene, holes);
 }
 
 static enum turner_result check_settings(const struct turner_scene *scene)
@@ -140,23 +141,32 @@ static enum turner_result check_settings(const struct turner_scene *scene)
     return TURNER_OK;
 }
 
-enum turner_result turner_pov_write(const struct turner_scene *scene, const char *path)
+static enum turner_result check(struct turner_pov_holes *holes, const struct turner_scene *scene)
 {
     TURNER_TRY(check_settings(scene));
     TURNER_TRY(turner_pov_check_materials(scene));
     TURNER_TRY(turner_pov_check_patterns(scene));
-    TURNER_TRY(turner_pov_check_solids(scene));
+    return turner_pov_check_solids(holes, scene);
+}
+
+enum turner_result turner_pov_write(const struct turner_scene *scene, const char *path)
+{
+    struct turner_pov_holes holes = {0};
     char *text = NULL;
     size_t size = 0;
+    enum turner_result result;
+    TURNER_TRY_DONE(check(&holes, scene));
     FILE *out = open_memstream(&text, &size);
-    if (!out)
-        return turner_fail(TURNER_DEVICE, "not enough memory for the POV-Ray scene");
-    write_scene(out, scene);
-    bool whole = !ferror(out);
-    whole = fclose(out) == 0 && whole;
-    enum turner_result result =
-        whole ? turner_atomic_write(path, text, size)
-              : turner_fail(TURNER_DEVICE, "not enough memory for the POV-Ray scene");
+    bool whole = out != NULL;
+    if (out) {
+        write_scene(out, scene, &holes);
+        whole = !ferror(out);
+        whole = fclose(out) == 0 && whole;
+    }
+    result = whole ? turner_atomic_write(path, text, size)
+                   : turner_fail(TURNER_DEVICE, "not enough memory for the POV-Ray scene");
+done:
     free(text);
+    free(holes.list);
     return result;
 }

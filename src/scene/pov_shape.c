@@ -4,15 +4,21 @@
 #include "base/memory.h"
 #include "scene/pov_parts.h"
 
-/* What a primitive is printed as: with its material, or as the shade it casts. A transmissive thing
- * lets light through in POV-Ray; under `shadows: opaque` it casts no shadow itself, and a black twin
- * that nothing but shadow rays can see does. */
-enum role { ROLE_ITSELF, ROLE_SHADE };
+/* What a primitive is printed as: with its material, as part of a union that has the interior, or as
+ * the shade it casts. A transmissive thing lets light through in POV-Ray; under `shadows: opaque` it
+ * casts no shadow itself, and a black twin that nothing but shadow rays can see does. */
+enum role { ROLE_ITSELF, ROLE_PART, ROLE_SHADE };
 
 static bool has_shade(const struct turner_scene *scene, uint32_t material)
 {
     return scene->settings.shadows == TURNER_SHADOWS_OPAQUE && scene->light_count &&
            !turner_pov_zero(scene->materials[material].k_t);
+}
+
+static void write_interior(FILE *out, const struct turner_scene *scene, uint32_t material)
+{
+    if (!turner_pov_zero(scene->materials[material].k_t))
+        fprintf(out, " interior { I%u } hollow", (unsigned)material);
 }
 
 static void end_surface(FILE *out, const struct turner_scene *scene, uint32_t material,
@@ -29,8 +35,8 @@ static void end_surface(FILE *out, const struct turner_scene *scene, uint32_t ma
         fputs(plane ? "\n" : " uv_mapping\n", out);
         turner_pov_texture(out, scene, material, plane);
     }
-    if (!turner_pov_zero(m->k_t))
-        fprintf(out, " interior { I%u } hollow", (unsigned)material);
+    if (role == ROLE_ITSELF)
+        write_interior(out, scene, material);
     fputs(has_shade(scene, material) ? " no_shadow }\n" : " }\n", out);
 }
 
@@ -105,38 +111,97 @@ static void write_mesh(FILE *out, const struct turner_mesh *mesh, bool textured)
         write_indices(out, "uv_indices", mesh, !mesh->uvs);
 }
 
+static bool is_hole(const struct turner_pov_holes *holes, const struct turner_sphere *sphere)
+{
+    for (size_t i = 0; i < holes->count; i++) {
+        if (holes->list[i].sphere == sphere)
+            return true;
+    }
+    return false;
+}
+
+/* How a primitive that may have holes begins; end_container ends it. */
+static enum role begin_container(FILE *out, const struct turner_pov_holes *holes,
+                                 const void *primitive)
+{
+    for (size_t i = 0; i < holes->count; i++) {
+        if (holes->list[i].container == primitive) {
+            fputs("union {\n", out);
+            return ROLE_PART;
+        }
+    }
+    return ROLE_ITSELF;
+}
+
+static void end_container(FILE *out, const struct turner_scene *scene,
+                          const struct turner_pov_holes *holes, const void *primitive,
+                          uint32_t material)
+{
+    for (size_t i = 0; i < holes->count; i++) {
+        if (holes->list[i].container != primitive)
+            continue;
+        write_sphere(out, holes->list[i].sphere);
+        end_surface(out, scene, holes->list[i].sphere->material, NULL, ROLE_PART);
+    }
+    write_interior(out, scene, material);
+    fputs(" }\n", out);
+}
+
+static void write_spheres(FILE *out, const struct turner_scene *scene,
+                          const struct turner_pov_holes *holes, const struct turner_group *group,
+                          uint32_t override, bool shade)
+{
+    for (size_t i = 0; i < group->sphere_count; i++) {
+        const struct turner_sphere *sphere = &group->spheres[i];
+        uint32_t m = override != TURNER_NONE ? override : sphere->material;
+        if (shade ? !has_shade(scene, m) : is_hole(holes, sphere))
+            continue;
+        enum role role = shade ? ROLE_SHADE : begin_container(out, holes, sphere);
+        write_sphere(out, sphere);
+        end_surface(out, scene, m, NULL, role);
+        if (role == ROLE_PART)
+            end_container(out, scene, holes, sphere, m);
+    }
+}
+
+static void write_meshes(FILE *out, const struct turner_scene *scene,
+                         const struct turner_pov_holes *holes, const struct turner_group *group,
+                         uint32_t override, bool shade)
+{
+    for (size_t i = 0; i < group->mesh_count; i++) {
+        const struct turner_mesh *mesh = &group->meshes[i];
+        uint32_t m = override != TURNER_NONE ? override : mesh->material;
+        if (!mesh->triangle_count || (shade && !has_shade(scene, m)))
+            continue;
+        enum role role = shade ? ROLE_SHADE : begin_container(out, holes, mesh);
+        write_mesh(out, mesh, scene->materials[m].pattern != TURNER_PATTERN_NONE && !shade);
+        end_surface(out, scene, m, NULL, role);
+        if (role == ROLE_PART)
+            end_container(out, scene, holes, mesh, m);
+    }
+}
+
 /* `override` is the instance's material or TURNER_NONE. */
 static void write_group(FILE *out, const struct turner_scene *scene,
-                        const struct turner_group *group, uint32_t override)
+                        const struct turner_pov_holes *holes, const struct turner_group *group,
+                        uint32_t override)
 {
-    for (int role = ROLE_ITSELF; role <= ROLE_SHADE; role++) {
-        for (size_t i = 0; i < group->sphere_count; i++) {
-            uint32_t m = override != TURNER_NONE ? override : group->spheres[i].material;
-            if (role == ROLE_SHADE && !has_shade(scene, m))
-                continue;
-            write_sphere(out, &group->spheres[i]);
-            end_surface(out, scene, m, NULL, (enum role)role);
-        }
+    for (int shade = 0; shade <= 1; shade++) {
+        write_spheres(out, scene, holes, group, override, shade);
         for (size_t i = 0; i < group->cone_count; i++) {
             uint32_t m = override != TURNER_NONE ? override : group->cones[i].material;
-            if (role == ROLE_SHADE && !has_shade(scene, m))
+            if (shade && !has_shade(scene, m))
                 continue;
             write_cone(out, &group->cones[i]);
-            end_surface(out, scene, m, NULL, (enum role)role);
+            end_surface(out, scene, m, NULL, shade ? ROLE_SHADE : ROLE_ITSELF);
         }
-        for (size_t i = 0; i < group->mesh_count; i++) {
-            uint32_t m = override != TURNER_NONE ? override : group->meshes[i].material;
-            if (!group->meshes[i].triangle_count || (role == ROLE_SHADE && !has_shade(scene, m)))
-                continue;
-            write_mesh(out, &group->meshes[i],
-                       scene->materials[m].pattern != TURNER_PATTERN_NONE && role == ROLE_ITSELF);
-            end_surface(out, scene, m, NULL, (enum role)role);
-        }
+        write_meshes(out, scene, holes, group, override, shade);
     }
 }
 
 static void write_instances(FILE *out, const struct turner_scene *scene)
 {
+    static const struct turner_pov_holes none;
     bool *declared = turner_calloc(scene->group_count, sizeof *declared);
     for (size_t i = 0; i < scene->instance_count; i++) {
         const struct turner_instance *instance = &scene->instances[i];
@@ -146,13 +211,13 @@ static void write_instances(FILE *out, const struct turner_scene *scene)
             continue;
         if (!own && !declared[instance->group]) {
             fprintf(out, "#declare G%u = union {\n", (unsigned)instance->group);
-            write_group(out, scene, group, TURNER_NONE);
+            write_group(out, scene, &none, group, TURNER_NONE);
             fputs("}\n", out);
             declared[instance->group] = true;
         }
         if (own) {
             fputs("union {\n", out);
-            write_group(out, scene, group, instance->material);
+            write_group(out, scene, &none, group, instance->material);
         } else {
             fprintf(out, "object { G%u", (unsigned)instance->group);
         }
@@ -191,7 +256,8 @@ enum turner_result turner_pov_check_patterns(const struct turner_scene *scene)
     return TURNER_OK;
 }
 
-void turner_pov_objects(FILE *out, const struct turner_scene *scene)
+void turner_pov_objects(FILE *out, const struct turner_scene *scene,
+                        const struct turner_pov_holes *holes)
 {
     for (size_t i = 0; i < scene->plane_count; i++) {
         const struct turner_plane *plane = &scene->planes[i];
@@ -202,7 +268,7 @@ void turner_pov_objects(FILE *out, const struct turner_scene *scene)
             end_surface(out, scene, plane->material, plane, ROLE_SHADE);
         }
     }
-    write_group(out, scene, &scene->groups[0], TURNER_NONE);
+    write_group(out, scene, holes, &scene->groups[0], TURNER_NONE);
     write_instances(out, scene);
 }
 

@@ -1,7 +1,8 @@
 /* Where POV-Ray goes in and out of media. It has no media priorities and no Fresnel formula for a
  * solid in another one (version 3.7 compares its index with itself on the way out), and the surface
  * of an object toggles: so every transmissive object must be closed and stand alone. Boxes around
- * things decide, which may refuse a scene that would have worked, never the other way round. */
+ * things decide, which may refuse a scene that would have worked, never the other way round. A hole
+ * is told as a surface of the same object: crossing it toggles that object's inside. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,6 +13,8 @@ struct solid {
     struct turner_vec3 lo, hi; /* box around it, world */
     uint32_t material;
     bool holds_eye, may_hold_eye;
+    const struct turner_sphere *sphere; /* what it is, where it may be a hole or have one */
+    const struct turner_mesh *mesh;
 };
 
 struct solids {
@@ -44,9 +47,9 @@ static struct turner_vec3 upper(struct turner_vec3 a, struct turner_vec3 b)
     return turner_vec3_of(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
 }
 
-static void add_solid(struct solids *solids, const struct turner_scene *scene,
-                      const struct turner_affine *transform, struct turner_vec3 lo,
-                      struct turner_vec3 hi, uint32_t material, bool holds_eye)
+static struct solid *add_solid(struct solids *solids, const struct turner_scene *scene,
+                               const struct turner_affine *transform, struct turner_vec3 lo,
+                               struct turner_vec3 hi, uint32_t material, bool holds_eye)
 {
     struct solid s = {.material = material, .holds_eye = holds_eye};
     for (int corner = 0; corner < 8; corner++) {
@@ -58,7 +61,9 @@ static void add_solid(struct solids *solids, const struct turner_scene *scene,
     }
     struct solid eye = {.lo = scene->camera.from, .hi = scene->camera.from};
     s.may_hold_eye = holds_eye || boxes_meet(&s, &eye);
-    *TURNER_PUSH(solids->list, solids->count, solids->capacity) = s;
+    struct solid *added = TURNER_PUSH(solids->list, solids->count, solids->capacity);
+    *added = s;
+    return added;
 }
 
 static int compare_points(const void *a, const void *b)
@@ -134,7 +139,7 @@ static enum turner_result add_mesh(struct solids *solids, const struct turner_sc
         lo = lower(lo, mesh->positions[i]);
         hi = upper(hi, mesh->positions[i]);
     }
-    add_solid(solids, scene, transform, lo, hi, material, false);
+    add_solid(solids, scene, transform, lo, hi, material, false)->mesh = mesh;
     return TURNER_OK;
 }
 
@@ -152,7 +157,8 @@ static enum turner_result add_group(struct solids *solids, const struct turner_s
         if (transmits(scene, m))
             add_solid(solids, scene, transform, turner_vec3_sub(s->center, r),
                       turner_vec3_add(s->center, r), m,
-                      turner_vec3_length(turner_vec3_sub(eye, s->center)) <= s->radius);
+                      turner_vec3_length(turner_vec3_sub(eye, s->center)) <= s->radius)
+                ->sphere = s;
     }
     for (size_t i = 0; i < group->cone_count; i++) {
         const struct turner_cone *c = &group->cones[i];
@@ -205,7 +211,51 @@ static int compare_solids(const void *a, const void *b)
     return (s->lo.x > t->lo.x) - (s->lo.x < t->lo.x);
 }
 
-static enum turner_result check_apart(const struct turner_scene *scene, struct solids *solids)
+static bool spheres_apart(const struct turner_sphere *a, const struct turner_sphere *b)
+{
+    return a && b &&
+           turner_vec3_length(turner_vec3_sub(a->center, b->center)) > a->radius + b->radius;
+}
+
+static bool sphere_within(const struct turner_sphere *sphere, const struct solid *container)
+{
+    if (container->sphere) {
+        struct turner_vec3 way = turner_vec3_sub(sphere->center, container->sphere->center);
+        return turner_vec3_length(way) + sphere->radius < container->sphere->radius;
+    }
+    const struct turner_mesh *mesh = container->mesh; /* closed: behind all its faces is inside */
+    for (uint32_t i = 0; mesh && i < mesh->triangle_count; i++) {
+        const uint32_t *t = mesh->triangles[i];
+        struct turner_vec3 p = mesh->positions[t[0]];
+        struct turner_vec3 n = turner_vec3_cross(turner_vec3_sub(mesh->positions[t[1]], p),
+                                                 turner_vec3_sub(mesh->positions[t[2]], p));
+        if (turner_vec3_dot(turner_vec3_sub(sphere->center, p), n) >=
+            -sphere->radius * turner_vec3_length(n))
+            return false;
+    }
+    return mesh != NULL;
+}
+
+/* Whether `inner` is air in `outer`, and all else is as it must be for that. */
+static enum turner_result check_hole(bool *is_hole, const struct turner_scene *scene,
+                                     const struct solid *inner, const struct solid *outer)
+{
+    uint32_t air = scene->materials[inner->material].medium;
+    uint32_t glass = scene->materials[outer->material].medium;
+    *is_hole = inner->sphere && air > glass && scene->media[air].index == 1 &&
+               turner_pov_zero(scene->media[air].absorption) &&
+               sphere_within(inner->sphere, outer);
+    if (!*is_hole)
+        return TURNER_OK;
+    if (inner->may_hold_eye || outer->may_hold_eye)
+        return turner_fail(TURNER_BAD_INPUT, "the camera is in or near a hollow solid of %s: "
+                           "POV-Ray does not know what it is in there, move it away",
+                           turner_pov_material_name(scene, outer->material));
+    return turner_pov_check_secondary(scene, inner->material, 1 / scene->media[glass].index);
+}
+
+static enum turner_result check_apart(struct turner_pov_holes *holes,
+                                      const struct turner_scene *scene, struct solids *solids)
 {
     if (solids->count)
         qsort(solids->list, solids->count, sizeof *solids->list, compare_solids);
@@ -214,8 +264,17 @@ static enum turner_result check_apart(const struct turner_scene *scene, struct s
             const struct solid *a = &solids->list[i], *b = &solids->list[k];
             if (b->lo.x > a->hi.x)
                 break;
-            if (!boxes_meet(a, b))
+            if (!boxes_meet(a, b) || spheres_apart(a->sphere, b->sphere))
                 continue;
+            bool b_in_a = false, a_in_b = false;
+            TURNER_TRY(check_hole(&b_in_a, scene, b, a));
+            TURNER_TRY(check_hole(&a_in_b, scene, a, b));
+            if (a_in_b || b_in_a) {
+                const struct solid *in = b_in_a ? b : a, *around = b_in_a ? a : b;
+                *TURNER_PUSH(holes->list, holes->count, holes->capacity) = (struct turner_pov_hole){
+                    in->sphere, around->sphere ? (const void *)around->sphere : around->mesh};
+                continue;
+            }
             char first[256];
             snprintf(first, sizeof first, "%s", turner_pov_material_name(scene, a->material));
             return turner_fail(TURNER_BAD_INPUT, "POV-Ray has no media priorities: solids of %s and "
@@ -279,7 +338,8 @@ static enum turner_result check_lamps(const struct turner_scene *scene, const st
     return TURNER_OK;
 }
 
-enum turner_result turner_pov_check_solids(const struct turner_scene *scene)
+enum turner_result turner_pov_check_solids(struct turner_pov_holes *holes,
+                                           const struct turner_scene *scene)
 {
     struct solids solids = {0};
     struct turner_affine identity = TURNER_AFFINE_IDENTITY;
@@ -288,8 +348,11 @@ enum turner_result turner_pov_check_solids(const struct turner_scene *scene)
     TURNER_TRY_DONE(add_group(&solids, scene, &scene->groups[0], &identity, TURNER_NONE));
     for (size_t i = 0; i < scene->instance_count; i++) {
         const struct turner_instance *instance = &scene->instances[i];
+        size_t before = solids.count;
         TURNER_TRY_DONE(add_group(&solids, scene, &scene->groups[instance->group],
                                   &instance->transform, instance->material));
+        for (size_t k = before; k < solids.count; k++) /* holes are looked for in the world alone */
+            solids.list[k].sphere = NULL, solids.list[k].mesh = NULL;
     }
     for (size_t i = 0; i < scene->plane_count; i++) {
         if (!transmits(scene, scene->planes[i].material))
@@ -301,7 +364,7 @@ enum turner_result turner_pov_check_solids(const struct turner_scene *scene)
             goto done;
         }
     }
-    TURNER_TRY_DONE(check_apart(scene, &solids));
+    TURNER_TRY_DONE(check_apart(holes, scene, &solids));
     TURNER_TRY_DONE(check_eye(scene, &solids));
     TURNER_TRY_DONE(check_lamps(scene, &solids));
 done:

@@ -90,10 +90,11 @@ static struct layers layers_of(const struct turner_scene *scene, const struct tu
 
 /* Reflected and transmitted light that is not among POV-Ray's formulas. What it draws at total
  * internal reflection has weight 1, whatever the material. */
-static enum turner_result check_secondary(const struct turner_scene *scene, uint32_t index)
+enum turner_result turner_pov_check_secondary(const struct turner_scene *scene, uint32_t material,
+                                              double n)
 {
-    const struct turner_material *m = &scene->materials[index];
-    const char *name = turner_pov_material_name(scene, index);
+    const struct turner_material *m = &scene->materials[material];
+    const char *name = turner_pov_material_name(scene, material);
     enum turner_fresnel fresnel = fresnel_of(scene, m);
     struct turner_vec3 sum = turner_vec3_add(m->k_r, m->k_t);
     if (turner_pov_zero(m->k_t)) {
@@ -102,7 +103,6 @@ static enum turner_result check_secondary(const struct turner_scene *scene, uint
                                "use \"fresnel\": \"schlick\" with k_r as the colour", name);
         return TURNER_OK;
     }
-    double n = scene->media[m->medium].index;
     if (fresnel == TURNER_FRESNEL_SCHLICK)
         return turner_fail(TURNER_BAD_INPUT, "%s: POV-Ray has Schlick's formula for metals only: "
                                              "use \"fresnel\": \"exact\" for what transmits", name);
@@ -144,7 +144,9 @@ enum turner_result turner_pov_check_materials(const struct turner_scene *scene)
         if (!used[i])
             continue;
         TURNER_TRY_DONE(check_local(scene, i));
-        TURNER_TRY_DONE(check_secondary(scene, i));
+        uint32_t medium = scene->materials[i].medium;
+        TURNER_TRY_DONE(turner_pov_check_secondary(
+            scene, i, medium == TURNER_NONE ? 1 : scene->media[medium].index));
     }
 done:
     free(used);

@@ -124,15 +124,23 @@ def terms():
             instances=[instance("g", {"scale": [1, 0.6, 1.2]}, {"translate": [-1, 0, 0]}),
                        instance("g", {"rotate": 30, "axis": [0, 1, 0]},
                                 {"translate": [1, 0.2, 0]})]), 0
+    # Large, as POV-Ray sees nothing nearer than 1e-4, which shows along the edges of small blocks.
+    far = {"camera": {"from": [0, 0, 500], "at": [0, 0, 0], "vfov": 40}}
+    wall = {"type": "plane", "point": [0, -80, 0], "normal": [0, 1, 0], "material": "shiny"}
+    hollow = {"stained": stained | {"absorption": [0.003, 0.012, 0.006]},
+              "air": {"k_r": 1, "k_t": 0.95, "k_s": 0.3, "exponent": 40, "medium": "air"}}
+    for shadows in ("tinted", "opaque"):
+        yield f"hollow ball and block, {shadows} shadows", scene_of(
+            wall, sphere("stained", -90, 10, 0, 100), sphere("air", -90, 10, 0, 90),
+            box("stained", [40, -70, -60], [180, 60, 60]), sphere("air", 130, 0, 10, 40),
+            sphere("air", 75, -40, 10, 20), materials=hollow,
+            media={"air": {"index": 1, "priority": 1}}, settings={"shadows": shadows}, **far), 0
     cubes = {"exact": glass, "none": {"k_r": [0.1, 0.2, 0.3], "k_t": [0.9, 0.8, 0.7],
                                       "index": 1.5, "fresnel": "none"}, "amber": stained}
     cube = [box("exact", [-40, -40, -40], [40, 40, 40])]
     tilt = {"rotate": 40, "axis": [1, 1, 0.3]}
     yield "total reflection in cubes", scene_of(
-        {"type": "plane", "point": [0, -80, 0], "normal": [0, 1, 0], "material": "shiny"},
-        materials=cubes, groups={"g": cube},
-        camera={"from": [0, 0, 500], "at": [0, 0, 0], "vfov": 40},
-        instances=[instance("g", tilt, {"translate": [140 * (i - 1), 0, 0]}, material=m)
+        wall, materials=cubes, groups={"g": cube}, **far, instances=[instance("g", tilt, {"translate": [140 * (i - 1), 0, 0]}, material=m)
                    for i, m in enumerate(cubes)]), 0
     yield "water", scene_of(plane("water", -0.5), plane("checker", -1.5),
                             materials={"water": glass | {"index": 1.333}}), 0

@@ -121,8 +121,8 @@ ALLOWED = {
     # POV-Ray ignores what a shadow ray meets in its first 0.001: the edge of a pane, once.
     "shadows": 1,
 }
-EXPORTED = {"absorption", "attenuation", "instances", "lights", "mesh", "phong_terms", "prism",
-            "shadows"}
+EXPORTED = {"absorption", "attenuation", "bubble", "instances", "lights", "mesh", "phong_terms",
+            "prism", "shadows", "whitted1980"}
 
 
 def scenes():

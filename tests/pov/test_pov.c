@@ -151,6 +151,13 @@ static void inverse_square_is_exact(void **state)
 #define SPOT(outer)                                                                                \
     ", \"lights\": [{\"type\": \"spot\", \"position\": [0, 1, 0], \"at\": [0, 0, 0], \"inner\": "  \
     "30, \"outer\": " outer ", \"intensity\": 1}]"
+/* A ball of glass with a ball of air in it. */
+#define HOLLOW(eye, priority, k_r, x)                                                              \
+    ", \"camera\": {\"from\": [0, 0, " eye "], \"at\": [0, 0, 0]}" SETTINGS("") SUN                \
+    ", \"media\": {\"air\": {\"index\": 1, \"priority\": " priority "}}, \"materials\": {"         \
+    "\"g\": {" GLASS "}, \"m\": {\"k_r\": " k_r ", \"k_t\": 1, \"medium\": \"air\"}}"              \
+    THINGS("{\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 1, \"material\": \"g\"}, "    \
+           SPHERE("[" x ", 0, 0]", "0.5"))
 #define SCENE(material, things) SETTINGS("") SUN MATERIAL(material) THINGS(things)
 
 /* Each beside something near it that is exported. */
@@ -192,17 +199,26 @@ static const struct {
     {SCENE(GLASS, PLANE("1")), {"camera", "inside"}, SCENE("\"k_d\": 1", PLANE("1"))},
     {SETTINGS("") LAMP("[0, 0.5, 0]") MATERIAL(GLASS ", \"absorption\": 1") THINGS(BALL),
      {"light 0", "absorb"}, SETTINGS("") LAMP("[0, 0.5, 0]") MATERIAL(GLASS) THINGS(BALL)},
+    {HOLLOW("5", "-1", "1", "0"), {"priorities", "apart"}, HOLLOW("5", "1", "1", "0")},
+    {HOLLOW("5", "1", "1", "0.6"), {"priorities", "apart"}, HOLLOW("5", "1", "1", "0.4")},
+    {HOLLOW("5", "1", "0.5", "0"), {"\"m\"", "k_r of 1"}, HOLLOW("5", "1", "0.5", "2")},
+    {HOLLOW("0.9", "1", "1", "0"), {"camera", "hollow"}, HOLLOW("1.1", "1", "1", "0")},
     {SPOT("120"), {"light 0", "90 degrees"}, SPOT("80")},
     {SETTINGS(", \"depth\": 256"), {"255", "256"}, SETTINGS(", \"depth\": 255")},
     {SETTINGS(", \"cutoff\": 1.5"), {"cutoff", "1.5"}, SETTINGS(", \"cutoff\": 1")},
 };
+
+static void complete(char *json, size_t size, const char *part)
+{
+    snprintf(json, size, "%s%s}", strstr(part, "camera") ? "{\"version\": 1" : HEAD, part);
+}
 
 static void what_cannot_be_said_is_refused(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char json[4096];
-        snprintf(json, sizeof json, HEAD "%s}", cases[i].refused);
+        complete(json, sizeof json, cases[i].refused);
         struct turner_scene *scene = must_parse(json);
         unlink(path);
         if (turner_pov_write(scene, path) != TURNER_BAD_INPUT)
@@ -221,7 +237,7 @@ static void what_is_near_it_is_exported(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char json[4096];
-        snprintf(json, sizeof json, HEAD "%s}", cases[i].exported);
+        complete(json, sizeof json, cases[i].exported);
         free(export_text(json));
     }
 }
