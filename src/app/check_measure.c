@@ -14,7 +14,7 @@
 
 enum { NEEDED, EVERYTHING, KINDS };
 
-/* Seconds of several runs. */
+/* Seconds, or ratios, of several runs. */
 struct spread {
     double median, least, most;
     double *runs; /* in the order they were made */
@@ -25,6 +25,8 @@ struct row {
     int width, height, spp, features;
     bool same;
     struct spread trace[KINDS];
+    struct spread ratio; /* needed : everything, of runs one after the other: what disturbs the
+                            machine disturbs both */
     double compile[KINDS]; /* seconds; little where the driver has the kernel in its cache */
     size_t bytes[KINDS]; /* of the kernel, as SPIR-V */
 };
@@ -91,6 +93,9 @@ static enum turner_result measure_kinds(struct session *session, struct row *row
     }
     for (int kind = 0; kind < KINDS; kind++)
         sum_up(&row->trace[kind], session->how->runs);
+    for (int run = 0; run < session->how->runs; run++)
+        row->ratio.runs[run] = row->trace[NEEDED].runs[run] / row->trace[EVERYTHING].runs[run];
+    sum_up(&row->ratio, session->how->runs);
     return TURNER_OK;
 }
 
@@ -162,11 +167,6 @@ static enum turner_result write_text(const char *folder, const char *name, const
     return turner_atomic_write(path, text, strlen(text));
 }
 
-static double time_ratio(const struct row *row)
-{
-    return row->trace[NEEDED].median / row->trace[EVERYTHING].median;
-}
-
 static double size_ratio(const struct row *row)
 {
     return (double)row->bytes[NEEDED] / (double)row->bytes[EVERYTHING];
@@ -179,7 +179,7 @@ static enum turner_result write_csv(const struct session *session, const struct 
         "scene,width,height,samples,features,same_bytes,runs,"
         "trace_seconds,trace_seconds_least,trace_seconds_most,"
         "trace_seconds_everything,trace_seconds_everything_least,trace_seconds_everything_most,"
-        "time_ratio,spirv_bytes,spirv_bytes_everything,size_ratio,"
+        "time_ratio,time_ratio_least,time_ratio_most,spirv_bytes,spirv_bytes_everything,size_ratio,"
         "compile_seconds,compile_seconds_everything\n";
     size_t size = sizeof head, length = sizeof head - 1;
     for (size_t i = 0; i < count; i++)
@@ -196,11 +196,11 @@ static enum turner_result write_csv(const struct session *session, const struct 
         }
         length += (size_t)snprintf(
             text + length, size - length,
-            "\",%d,%d,%d,%d,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.4f,%zu,%zu,%.4f,%.4g,%.4g\n",
+            "\",%d,%d,%d,%d,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.4f,%.4f,%.4f,%zu,%zu,%.4f,%.4g,%.4g\n",
             r->width, r->height, r->spp, r->features, r->same ? "yes" : "no",
             session->how->runs, r->trace[NEEDED].median, r->trace[NEEDED].least,
             r->trace[NEEDED].most, r->trace[EVERYTHING].median, r->trace[EVERYTHING].least,
-            r->trace[EVERYTHING].most, time_ratio(r), r->bytes[NEEDED], r->bytes[EVERYTHING],
+            r->trace[EVERYTHING].most, r->ratio.median, r->ratio.least, r->ratio.most, r->bytes[NEEDED], r->bytes[EVERYTHING],
             size_ratio(r), r->compile[NEEDED], r->compile[EVERYTHING]);
     }
     enum turner_result result = write_text(session->how->folder, "needs.csv", text);
@@ -246,7 +246,9 @@ static enum turner_result write_json(const struct session *session, const struct
         cJSON_AddItemToObject(scene, "needed", kind_object(row, NEEDED, session->how->runs));
         cJSON_AddItemToObject(scene, "everything",
                               kind_object(row, EVERYTHING, session->how->runs));
-        cJSON_AddNumberToObject(scene, "time_ratio", time_ratio(row));
+        cJSON_AddNumberToObject(scene, "time_ratio", row->ratio.median);
+        cJSON_AddNumberToObject(scene, "time_ratio_least", row->ratio.least);
+        cJSON_AddNumberToObject(scene, "time_ratio_most", row->ratio.most);
         cJSON_AddNumberToObject(scene, "size_ratio", size_ratio(row));
         cJSON_AddItemToArray(scenes, scene);
     }
@@ -266,7 +268,7 @@ static void print_rows(const struct row *rows, size_t count)
         const char *slash = strrchr(r->path, '/');
         printf("%-32s %6.3f s %8.3f s %4.0f %% %7zu B %7zu B %4.0f %%  %s\n",
                slash ? slash + 1 : r->path, r->trace[NEEDED].median, r->trace[EVERYTHING].median,
-               100 * time_ratio(r), r->bytes[NEEDED], r->bytes[EVERYTHING], 100 * size_ratio(r),
+               100 * r->ratio.median, r->bytes[NEEDED], r->bytes[EVERYTHING], 100 * size_ratio(r),
                r->same ? "the same" : "DIFFERS");
     }
 }
@@ -321,6 +323,7 @@ enum turner_result turner_needs_measure(const struct turner_measure *measure,
         rows[i].path = paths[i];
         for (int kind = 0; kind < KINDS; kind++)
             rows[i].trace[kind].runs = turner_calloc((size_t)measure->runs, sizeof(double));
+        rows[i].ratio.runs = turner_calloc((size_t)measure->runs, sizeof(double));
     }
     TURNER_TRY_DONE(measure_on_device(&session, rows, count));
     if (!measure->quiet)
@@ -335,6 +338,7 @@ done:
     for (size_t i = 0; i < count; i++) {
         for (int kind = 0; kind < KINDS; kind++)
             free(rows[i].trace[kind].runs);
+        free(rows[i].ratio.runs);
     }
     free(rows);
     return result;

@@ -83,7 +83,7 @@ static void print_precision(const struct turner_scene *scene)
     char object[TURNER_WHY_TEXT], line[320];
     turner_why_text(object, scene, &error.object);
     size_t length = (size_t)snprintf(
-        line, sizeof line, "%s; f32 moves edges by about %.2g of a pixel%s%s%s",
+        line, sizeof line, "%s; f32 moves edges by up to %.2g of a pixel%s%s%s",
         scene->settings.methods.precision == TURNER_PRECISION_F64 ? "f64" : "f32",
         fmax(error.pixels, error.shape), *object ? " (" : "", object, *object ? ")" : "");
     if (bent)

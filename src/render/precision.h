@@ -1,8 +1,8 @@
 /* What double precision could show of a scene that single precision does not: an estimate.
  *
- * A float keeps a coordinate to u = 2^-24 of its size, and by the time a hit is found some eight
- * roundings have added up: with S the largest coordinate among the eye's and the object's, a point
- * is off by δ = 8·u·S. Seen from the distance d that is
+ * A float keeps a coordinate to u = 2^-24 of its size, and by the time a hit is found up to some
+ * eight roundings have added up: with S the largest coordinate among the eye's and the object's, a
+ * point is off by up to δ = 8·u·S. Seen from the distance d that is
  *     pixels = δ / (d·s),   s = 2·tan(vfov/2)/height the pixel's size at distance 1,
  * so an edge, and all that is painted on the object, moves by so many pixels; and an object of
  * radius r (half the diagonal of the box around a mesh or a cone) is misshapen by

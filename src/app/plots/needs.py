@@ -9,7 +9,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-TIME, SIZE = "#3465a4", "#c4a000"
+TIME, SIZE = "#3465a4", "#9a7500"
 
 
 def main():
@@ -19,11 +19,8 @@ def main():
     names = [pathlib.Path(s["scene"]).name.rsplit(".", 1)[0] for s in scenes]
     time = [100 * s["time_ratio"] for s in scenes]
     size = [100 * s["size_ratio"] for s in scenes]
-    # two runs made one after the other share what disturbs them
-    pairs = [[100 * a / b for a, b in zip(s["needed"]["trace_seconds_runs"],
-                                          s["everything"]["trace_seconds_runs"])] for s in scenes]
-    low = [min(t, *p) for t, p in zip(time, pairs)]
-    high = [max(t, *p) for t, p in zip(time, pairs)]
+    low = [100 * s["time_ratio_least"] for s in scenes]
+    high = [100 * s["time_ratio_most"] for s in scenes]
 
     plt.rcParams["svg.hashsalt"] = "turner"
     figure, axes = plt.subplots(figsize=(8.5, 1.9 + 0.42 * len(scenes)), constrained_layout=True)
@@ -33,11 +30,10 @@ def main():
                   capsize=2, xerr=[[t - l for t, l in zip(time, low)],
                                    [h - t for t, h in zip(time, high)]])
     axes.barh([p - 0.2 for p in places], size, 0.38, color=SIZE, label="SPIR-V bytes")
-    for place, t, s, h in zip(places, time, size, high):
-        axes.annotate(f"{t:.0f} %", (max(t, h), place + 0.2), (3, 0), va="center", fontsize=7,
-                      textcoords="offset points")
-        axes.annotate(f"{s:.0f} %", (s, place - 0.2), (3, 0), va="center", fontsize=7,
-                      textcoords="offset points")
+    for place, t, s in zip(places, time, size):
+        for percent, height in ((t, place + 0.2), (s, place - 0.2)):
+            axes.annotate(f"{percent:.0f} %", (0, height), (3, 0), va="center", fontsize=7,
+                          color="white", weight="bold", textcoords="offset points")
     axes.axvline(100, color="black", linewidth=1)
     axes.set_yticks(list(places), [f"{n} ({s['features']})" for n, s in zip(names, scenes)],
                     fontsize=8)
@@ -53,8 +49,8 @@ def main():
                 frameon=False)
     same = sum(s["same_bytes"] for s in scenes)
     figure.supxlabel(
-        f"Medians of {data['runs']} runs by turns; whiskers: the least and largest ratio of two runs "
-        f"made one after the other.\n"
+        f"Time: the median ratio of {data['runs']} pairs of runs, one after the other; whiskers: the "
+        f"least and the largest.\n"
         f"Median over scenes: time {statistics.median(time):.0f} %, size "
         f"{statistics.median(size):.0f} %. Same picture to the byte: {same} of {len(scenes)}.\n"
         f"{data['device']}, {data['driver']}, {data['cores']} cores, {data['traversal']}, "
