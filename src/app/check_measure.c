@@ -21,7 +21,7 @@ struct spread {
 };
 
 struct row {
-    const char *path;
+    const char *path, *traversal;
     int width, height, spp, features;
     bool same;
     struct spread trace[KINDS];
@@ -34,8 +34,7 @@ struct row {
 struct session {
     const struct turner_measure *how;
     struct turner_gpu gpu;
-    struct turner_kernel kernel;
-    size_t everything; /* bytes of the kernel with everything in it */
+    struct turner_kernel_set kernels;
     struct turner_progress_bar bar;
     double done, all; /* drawings */
 };
@@ -122,8 +121,12 @@ static enum turner_result measure_scene(struct session *session, struct row *row
     row->spp = settings->spp;
     const struct turner_needs needs = turner_needs_of(scene);
     row->features = bits_set(needs.bits);
-    row->bytes[EVERYTHING] = session->everything;
-    TURNER_TRY(turner_kernel_size(&row->bytes[NEEDED], &session->kernel, &needs));
+    const struct turner_sized_kernel *kernel;
+    TURNER_TRY(turner_kernel_set_get(&kernel, &session->kernels, &session->gpu.info, scene,
+                                     how->traversal));
+    row->traversal = turner_kernel_traversal(&kernel->kernel);
+    row->bytes[EVERYTHING] = kernel->everything;
+    TURNER_TRY(turner_kernel_size(&row->bytes[NEEDED], &kernel->kernel, &needs));
 
     struct turner_renderer renderers[KINDS] = {0};
     struct turner_image images[KINDS] = {0};
@@ -132,7 +135,7 @@ static enum turner_result measure_scene(struct session *session, struct row *row
         const struct turner_render_options options = {.unspecialised = kind == EVERYTHING};
         struct turner_statistics statistics = {0};
         TURNER_TRY_DONE(turner_image_create(&images[kind], row->width, row->height));
-        TURNER_TRY_DONE(turner_renderer_create(&renderers[kind], &session->gpu, &session->kernel,
+        TURNER_TRY_DONE(turner_renderer_create(&renderers[kind], &session->gpu, &kernel->kernel,
                                                scene, &options, &statistics));
         row->compile[kind] = statistics.seconds_compile;
     }
@@ -176,7 +179,7 @@ static enum turner_result write_csv(const struct session *session, const struct 
                                     size_t count)
 {
     static const char head[] =
-        "scene,width,height,samples,features,same_bytes,runs,"
+        "scene,traversal,width,height,samples,features,same_bytes,runs,"
         "trace_seconds,trace_seconds_least,trace_seconds_most,"
         "trace_seconds_everything,trace_seconds_everything_least,trace_seconds_everything_most,"
         "time_ratio,time_ratio_least,time_ratio_most,spirv_bytes,spirv_bytes_everything,size_ratio,"
@@ -196,8 +199,8 @@ static enum turner_result write_csv(const struct session *session, const struct 
         }
         length += (size_t)snprintf(
             text + length, size - length,
-            "\",%d,%d,%d,%d,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.4f,%.4f,%.4f,%zu,%zu,%.4f,%.4g,%.4g\n",
-            r->width, r->height, r->spp, r->features, r->same ? "yes" : "no",
+            "\",%s,%d,%d,%d,%d,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.4f,%.4f,%.4f,%zu,%zu,%.4f,%.4g,%.4g\n",
+            r->traversal, r->width, r->height, r->spp, r->features, r->same ? "yes" : "no",
             session->how->runs, r->trace[NEEDED].median, r->trace[NEEDED].least,
             r->trace[NEEDED].most, r->trace[EVERYTHING].median, r->trace[EVERYTHING].least,
             r->trace[EVERYTHING].most, r->ratio.median, r->ratio.least, r->ratio.most, r->bytes[NEEDED], r->bytes[EVERYTHING],
@@ -228,8 +231,6 @@ static enum turner_result write_json(const struct session *session, const struct
     cJSON_AddStringToObject(object, "version", turner_version());
     cJSON_AddStringToObject(object, "device", session->gpu.info.name);
     cJSON_AddStringToObject(object, "driver", session->gpu.info.driver);
-    cJSON_AddStringToObject(object, "traversal",
-                            session->kernel.kind & TURNER_RAY_QUERY ? "ray_query" : "bvh");
     cJSON_AddNumberToObject(object, "cores", (double)sysconf(_SC_NPROCESSORS_ONLN));
     cJSON_AddNumberToObject(object, "runs", session->how->runs);
     cJSON_AddNumberToObject(object, "features", bits_set(TURNER_NEEDS_ALL));
@@ -239,6 +240,7 @@ static enum turner_result write_json(const struct session *session, const struct
         cJSON *scene = cJSON_CreateObject();
         int size[2] = {row->width, row->height};
         cJSON_AddStringToObject(scene, "scene", row->path);
+        cJSON_AddStringToObject(scene, "traversal", row->traversal);
         cJSON_AddItemToObject(scene, "size", cJSON_CreateIntArray(size, 2));
         cJSON_AddNumberToObject(scene, "samples", row->spp);
         cJSON_AddNumberToObject(scene, "features", row->features);
@@ -286,14 +288,8 @@ static enum turner_result prepare_folder(const char *folder)
 static enum turner_result measure_on_device(struct session *session, struct row *rows,
                                             size_t count)
 {
-    static const struct turner_render_options defaults;
-    bool ray_query;
     enum turner_result result;
     TURNER_TRY_DONE(turner_gpu_create(&session->gpu, session->how->device, false));
-    TURNER_TRY_DONE(
-        turner_choose_traversal(&ray_query, &session->gpu.info, session->how->traversal));
-    TURNER_TRY_DONE(turner_kernel_create(&session->kernel, ray_query, &defaults));
-    TURNER_TRY_DONE(turner_everything_size(&session->everything, &session->kernel));
     turner_progress_begin(&session->bar, session->how->quiet);
     result = measure_all(session, rows, count);
     turner_progress_end(&session->bar);
@@ -302,7 +298,7 @@ static enum turner_result measure_on_device(struct session *session, struct row 
     TURNER_TRY_DONE(write_csv(session, rows, count));
     TURNER_TRY_DONE(write_json(session, rows, count));
 done:
-    turner_kernel_destroy(&session->kernel);
+    turner_kernel_set_destroy(&session->kernels);
     turner_gpu_destroy(&session->gpu);
     return result;
 }

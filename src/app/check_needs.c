@@ -9,10 +9,37 @@
 enum { FORMATS = 3 };
 static const int format_bits[FORMATS] = {8, 16, 32};
 
-enum turner_result turner_everything_size(size_t *bytes, const struct turner_kernel *kernel)
+enum turner_result turner_kernel_set_get(const struct turner_sized_kernel **kernel,
+                                         struct turner_kernel_set *set,
+                                         const struct turner_gpu_info *info,
+                                         const struct turner_scene *scene,
+                                         enum turner_traversal wanted)
 {
-    const struct turner_needs everything = {.bits = TURNER_NEEDS_ALL, .stack = 1};
-    return turner_kernel_size(bytes, kernel, &everything);
+    static const struct turner_render_options defaults;
+    const struct turner_needs everything = {
+        .bits = TURNER_NEEDS_ALL, .stack = 1, .methods = turner_needs_of(scene).methods};
+    unsigned kind;
+    TURNER_TRY(turner_choose_kernel(&kind, info, &scene->settings.methods, wanted));
+    struct turner_sized_kernel *entry = &set->at[kind];
+    if (!entry->kernel.spirv.words)
+        TURNER_TRY(turner_kernel_create(&entry->kernel, kind, &defaults));
+    if (!entry->ready || entry->methods != everything.methods)
+        TURNER_TRY(turner_kernel_size(&entry->everything, &entry->kernel, &everything));
+    entry->methods = everything.methods;
+    entry->ready = true;
+    *kernel = entry;
+    return TURNER_OK;
+}
+
+void turner_kernel_set_destroy(struct turner_kernel_set *set)
+{
+    for (int kind = 0; kind < TURNER_KERNEL_KINDS; kind++)
+        turner_kernel_destroy(&set->at[kind].kernel);
+}
+
+const char *turner_kernel_traversal(const struct turner_kernel *kernel)
+{
+    return kernel->kind & TURNER_RAY_QUERY ? "ray_query" : "bvh";
 }
 
 static void depth_text(char *text, size_t size, const struct turner_scene *scene,
@@ -115,12 +142,12 @@ static void print_left_out(const struct turner_needs *needs)
 }
 
 enum turner_result turner_needs_print(const struct turner_scene *scene, const char *path,
-                                      const struct turner_kernel *kernel, size_t everything)
+                                      const struct turner_sized_kernel *kernel)
 {
     struct turner_why why[TURNER_NEEDS_COUNT];
     struct turner_needs needs = turner_needs_explain(why, scene);
     size_t bytes;
-    TURNER_TRY(turner_kernel_size(&bytes, kernel, &needs));
+    TURNER_TRY(turner_kernel_size(&bytes, &kernel->kernel, &needs));
     printf("%s\n", path);
     print_features(scene, &needs, why);
     print_depth(scene);
@@ -128,8 +155,8 @@ enum turner_result turner_needs_print(const struct turner_scene *scene, const ch
     print_left_out(&needs);
     char line[160];
     snprintf(line, sizeof line, "%zu bytes of SPIR-V (%s), %.0f %% of the %zu with everything",
-             bytes, kernel->kind & TURNER_RAY_QUERY ? "ray_query" : "bvh",
-             100.0 * (double)bytes / (double)everything, everything);
+             bytes, turner_kernel_traversal(&kernel->kernel),
+             100.0 * (double)bytes / (double)kernel->everything, kernel->everything);
     print_line("kernel", line);
     return TURNER_OK;
 }
@@ -195,21 +222,20 @@ static void list_precision(cJSON *object, const struct turner_scene *scene)
 }
 
 enum turner_result turner_needs_list(cJSON *list, const struct turner_scene *scene,
-                                     const char *path, const struct turner_kernel *kernel,
-                                     size_t everything)
+                                     const char *path, const struct turner_sized_kernel *kernel)
 {
     struct turner_needs needs = turner_needs_of(scene);
     size_t bytes;
-    TURNER_TRY(turner_kernel_size(&bytes, kernel, &needs));
+    TURNER_TRY(turner_kernel_size(&bytes, &kernel->kernel, &needs));
     cJSON *object = cJSON_CreateObject();
     cJSON_AddStringToObject(object, "scene", path);
     list_features(object, scene);
     list_depth(object, scene);
     list_precision(object, scene);
     cJSON *size = cJSON_AddObjectToObject(object, "kernel");
-    cJSON_AddStringToObject(size, "traversal", kernel->kind & TURNER_RAY_QUERY ? "ray_query" : "bvh");
+    cJSON_AddStringToObject(size, "traversal", turner_kernel_traversal(&kernel->kernel));
     cJSON_AddNumberToObject(size, "spirv_bytes", (double)bytes);
-    cJSON_AddNumberToObject(size, "spirv_bytes_everything", (double)everything);
+    cJSON_AddNumberToObject(size, "spirv_bytes_everything", (double)kernel->everything);
     cJSON_AddItemToArray(list, object);
     return TURNER_OK;
 }

@@ -6,17 +6,37 @@
 
 #include "render/renderer.h"
 
-/* Bytes of SPIR-V of the kernel with everything in it, whatever the scene. */
-enum turner_result turner_everything_size(size_t *bytes, const struct turner_kernel *kernel);
+/* A kernel, and the bytes of SPIR-V it has with everything in it and some methods. */
+struct turner_sized_kernel {
+    bool ready;
+    struct turner_kernel kernel;
+    uint32_t methods; /* turner_needs.methods */
+    size_t everything;
+};
 
-/* To stdout, for people; `everything` is the above. */
+/* One of each kind, compiled when first asked for; starts zeroed. */
+struct turner_kernel_set {
+    struct turner_sized_kernel at[TURNER_KERNEL_KINDS];
+};
+
+/* The kernel of the scene's methods on that device. */
+enum turner_result turner_kernel_set_get(const struct turner_sized_kernel **kernel,
+                                         struct turner_kernel_set *set,
+                                         const struct turner_gpu_info *info,
+                                         const struct turner_scene *scene,
+                                         enum turner_traversal wanted);
+void turner_kernel_set_destroy(struct turner_kernel_set *set);
+
+/* "bvh" or "ray_query" */
+const char *turner_kernel_traversal(const struct turner_kernel *kernel);
+
+/* To stdout, for people. */
 enum turner_result turner_needs_print(const struct turner_scene *scene, const char *path,
-                                      const struct turner_kernel *kernel, size_t everything);
+                                      const struct turner_sized_kernel *kernel);
 
 /* The same as an object appended to `list`. */
 enum turner_result turner_needs_list(cJSON *list, const struct turner_scene *scene,
-                                     const char *path, const struct turner_kernel *kernel,
-                                     size_t everything);
+                                     const char *path, const struct turner_sized_kernel *kernel);
 
 struct turner_measure {
     const char *folder; /* gets needs.csv, needs.json and the pictures; made if missing */

@@ -63,16 +63,23 @@ struct arguments {
 };
 
 static enum turner_result check_scene(const struct arguments *a, const char *path,
-                                      const struct turner_kernel *kernel, size_t everything,
-                                      cJSON *list)
+                                      struct turner_kernel_set *kernels, cJSON *list)
 {
+    /* without a device: what a CPU would do that can do everything */
+    static const struct turner_gpu_info able = {
+        .name = "any", .software = true, .ray_query = true, .float64 = true};
+    const struct turner_sized_kernel *kernel = NULL;
     struct turner_scene *scene;
     enum turner_result result = TURNER_OK;
     TURNER_TRY(turner_scene_load(&scene, path));
-    if (list)
-        result = turner_needs_list(list, scene, path, kernel, everything);
+    if (a->needs)
+        result = turner_kernel_set_get(&kernel, kernels, &able, scene, a->measure.traversal);
+    if (result != TURNER_OK)
+        turner_fail_within(result, "%s", path);
+    else if (list)
+        result = turner_needs_list(list, scene, path, kernel);
     else if (a->needs)
-        result = turner_needs_print(scene, path, kernel, everything);
+        result = turner_needs_print(scene, path, kernel);
     else if (!a->quiet)
         describe(path, scene);
     if (result == TURNER_OK)
@@ -168,20 +175,13 @@ static enum turner_result take(struct arguments *a, int option, char **argv)
 /* Each file for itself: one that is wrong does not keep the others from being read. */
 static enum turner_result check_files(const struct arguments *a, char **paths, size_t count)
 {
-    static const struct turner_render_options defaults;
     enum turner_result worst = TURNER_OK;
-    struct turner_kernel kernel = {0};
-    size_t everything = 0;
+    struct turner_kernel_set kernels = {0};
     cJSON *list = a->json ? cJSON_CreateArray() : NULL;
-    if (a->needs)
-        worst = turner_kernel_create(&kernel, a->measure.traversal == TURNER_TRAVERSAL_RAY_QUERY,
-                                     &defaults);
-    if (a->needs && worst == TURNER_OK)
-        worst = turner_everything_size(&everything, &kernel);
-    for (size_t i = 0; i < count && (i > 0 || worst == TURNER_OK); i++) {
+    for (size_t i = 0; i < count; i++) {
         enum turner_result result =
             is_shader(paths[i]) ? check_shader(paths[i], a->quiet || list)
-                                : check_scene(a, paths[i], &kernel, everything, list);
+                                : check_scene(a, paths[i], &kernels, list);
         if (result == TURNER_OK)
             continue;
         fprintf(stderr, "turner: error: %s\n", turner_message());
@@ -194,7 +194,7 @@ static enum turner_result check_files(const struct arguments *a, char **paths, s
         cJSON_free(text);
     }
     cJSON_Delete(list);
-    turner_kernel_destroy(&kernel);
+    turner_kernel_set_destroy(&kernels);
     return worst;
 }
 

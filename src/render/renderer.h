@@ -12,6 +12,7 @@ enum turner_kernel_kind {
     TURNER_F64 = 1 << 1,        /* method precision=f64; the device has float64 */
     TURNER_SPHERE_F64 = 1 << 2, /* method sphere=f64; the same */
 };
+#define TURNER_KERNEL_KINDS 8 /* combinations */
 
 /* The shaders compiled to SPIR-V, for any scene whose methods want this kind. */
 struct turner_kernel {

@@ -52,6 +52,16 @@ def lists():
         assert (depth["largest_weight"] == 0) == (not wanted & {"reflection", "transmission"})
     mirrors = next(r for r in reports if r["scene"].endswith("mirrors.json"))
     assert mirrors["depth"]["useful"] == 66, "0.92^66 = 0.00407, the cutoff is 0.004"
+    # each kind of kernel has its own size
+    pathlib.Path("f64.json").write_text(DEEP.replace('"depth": 20',
+                                                     '"methods": {"precision": "f64"}'))
+    pathlib.Path("f32.json").write_text(DEEP)
+    double, single = json.loads(turner("check", "--needs", "--json", "f64.json",
+                                       "f32.json").stdout)
+    assert double["precision"]["setting"] == "f64" and single["precision"]["setting"] == "f32"
+    assert double["kernel"]["spirv_bytes"] > single["kernel"]["spirv_bytes"]
+    assert double["precision"]["f64_can_show"] == {"bits_8": False, "bits_16": True, "float": True}
+    turner("check", "--needs", "--traversal", "ray_query", "f64.json", status=2)
     turner("check", "--json", SCENES[0], status=2)
     turner("check", "--needs", "missing.json", status=3)
 
@@ -85,24 +95,26 @@ def precision():
     says pixels are lost, some are."""
     skip_without_device()
     size, distance, vfov = 400, 3, 60
-    for shift in (0, 1e3, 1e4, 1e5):
+    shifts = {"near": 0, "far": 1e4, "beyond": 1e5}
+    for name, shift in shifts.items():
         scene = {"version": 1, "settings": {"size": [size, size], "depth": 0},
                  "camera": {"from": [shift + 0.12345, 0.31, distance],
                             "at": [shift + 0.12345, 0.31, 0], "vfov": vfov},
                  "materials": {"m": {"k_e": 1}}, "primitives": [
                      {"type": "sphere", "center": [shift, 0, 0], "radius": 1, "material": "m"}]}
-        pathlib.Path("s.json").write_text(json.dumps(scene))
-        turner("render", "s.json", "-o", "device.png", "-q")
-        turner("render", "s.json", "-o", "reference.png", "-q", "--device", "reference")
+        pathlib.Path(f"{name}.json").write_text(json.dumps(scene))
+    reports = json.loads(turner("check", "--needs", "--json",
+                                *(f"{name}.json" for name in shifts)).stdout)
+    for name, report in zip(shifts, reports):
+        turner("render", f"{name}.json", "-o", "device.png", "-q")
+        turner("render", f"{name}.json", "-o", "reference.png", "-q", "--device", "reference")
         done = subprocess.run([TURNER, "compare", "device.png", "reference.png"],
                               capture_output=True, text=True, timeout=60)
         wrong = int(re.search(r"pixels over it +(\d+) of", done.stdout)[1])
-        report = json.loads(turner("check", "--needs", "--json", "s.json").stdout)[0]["precision"]
         outline = 2 * math.pi / (distance * 2 * math.tan(math.radians(vfov / 2)) / size)
-        moved = report["f32_moves_edges_pixels"]
-        print(f"{shift:g} from the origin: {wrong} pixels differ, at most {outline * moved:.1f}")
-        # a ball's outline is seen, and a bit of chance: 3 pixels
-        assert wrong <= outline * moved + 3
+        moved = report["precision"]["f32_moves_edges_pixels"]
+        print(f"{name}: {wrong} pixels differ, at most {outline * moved:.1f}")
+        assert wrong <= outline * moved + 3, "chance may take a pixel or two"
         assert (wrong >= 10) == (moved > 0.5), "it moves by pixels, and nothing is lost"
 
 

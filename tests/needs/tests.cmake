@@ -12,4 +12,5 @@ foreach(what IN ITEMS lists warnings precision measure)
     set_tests_properties(needs_${what} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 ENVIRONMENT
         "TURNER=$<TARGET_FILE:turner>;TURNER_SCENES=${PROJECT_SOURCE_DIR}/scenes")
 endforeach()
+set_tests_properties(needs_lists PROPERTIES LABELS once)
 set_tests_properties(needs_measure needs_precision PROPERTIES LABELS device)

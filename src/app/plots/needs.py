@@ -53,8 +53,8 @@ def main():
         f"least and the largest.\n"
         f"Median over scenes: time {statistics.median(time):.0f} %, size "
         f"{statistics.median(size):.0f} %. Same picture to the byte: {same} of {len(scenes)}.\n"
-        f"{data['device']}, {data['driver']}, {data['cores']} cores, {data['traversal']}, "
-        f"turner {data['version']}", fontsize=7, x=0.01, ha="left")
+        f"{data['device']}, {data['driver']}, {data['cores']} cores, "
+        f"{'/'.join(sorted({s['traversal'] for s in scenes}))}, turner {data['version']}", fontsize=7, x=0.01, ha="left")
     for ending in ("png", "svg"):
         figure.savefig(folder / f"needs.{ending}", dpi=150,
                        metadata={"Date": None} if ending == "svg" else None)
