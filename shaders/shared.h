@@ -301,6 +301,73 @@ TURNER_STRUCT(turner_gpu_dispatch)
     float cutoff;
 };
 
+/* ---- what a kernel with TURNER_RECORD notes down (record.glsl): a header and events, behind the
+ * one pixel of the dispatch ---- */
+#define TURNER_RECORDS_OFFSET 16 /* from turner_gpu_dispatch.pixels, */
+#define TURNER_RECORDS_HEADER 8  /* and from there */
+
+TURNER_STRUCT(turner_gpu_records)
+{
+    uint count; /* of events; those beyond the capacity are not kept */
+    uint capacity;
+};
+
+#define TURNER_RECORD_RAY 1u        /* not a shadow ray; until its end come: */
+#define TURNER_RECORD_CROSSING 2u   /* a surface it goes straight through */
+#define TURNER_RECORD_BACKGROUND 3u /* its end, or */
+#define TURNER_RECORD_SURFACE 4u    /* its end; then the lights, then the rays it sends */
+#define TURNER_RECORD_LIGHT 5u      /* if ASKED, crossings and one of the next two: */
+#define TURNER_RECORD_LIT 6u
+#define TURNER_RECORD_BLOCKED 7u    /* or none: nothing was left after the last crossing */
+#define TURNER_RECORD_UNFINISHED 8u
+
+#define TURNER_RECORD_BOUNDARY 1u      /* CROSSING: media differ on both sides */
+#define TURNER_RECORD_ASKED 2u         /* LIGHT */
+#define TURNER_RECORD_TOTAL 4u         /* SURFACE: total internal reflection */
+#define TURNER_RECORD_FRESNEL_KNOWN 8u /* SURFACE: FRESNEL is set */
+#define TURNER_RECORD_REFLECTS 16u     /* SURFACE: the ray is followed */
+#define TURNER_RECORD_REFRACTS 32u
+
+/* Where in turner_gpu_record.value; those of three numbers go on for three. */
+#define TURNER_RECORD_ORIGIN 0
+#define TURNER_RECORD_DIRECTION 3
+#define TURNER_RECORD_WEIGHT 6
+#define TURNER_RECORD_T 9
+#define TURNER_RECORD_THROUGH 10
+#define TURNER_RECORD_RADIANCE 13
+#define TURNER_RECORD_CONTRIBUTION 16
+#define TURNER_RECORD_POINT 19 /* from here on SURFACE */
+#define TURNER_RECORD_NG 22
+#define TURNER_RECORD_NS 25
+#define TURNER_RECORD_COSINE 28
+#define TURNER_RECORD_N1 29
+#define TURNER_RECORD_N2 30
+#define TURNER_RECORD_FRESNEL 31
+#define TURNER_RECORD_REFLECTED 34
+#define TURNER_RECORD_REFLECTED_ORIGIN 37
+#define TURNER_RECORD_W_R 40
+#define TURNER_RECORD_REFRACTED 43
+#define TURNER_RECORD_REFRACTED_ORIGIN 46
+#define TURNER_RECORD_W_T 49
+#define TURNER_RECORD_IRRADIANCE 19 /* from here on LIGHT */
+#define TURNER_RECORD_DIFFUSE 22
+#define TURNER_RECORD_SPECULAR 25
+#define TURNER_RECORD_N_L 28
+#define TURNER_RECORD_R_V 29
+#define TURNER_RECORD_VALUES 52
+
+TURNER_STRUCT(turner_gpu_record)
+{
+    TURNER_UINT64 value[TURNER_RECORD_VALUES]; /* bits of a double with TURNER_F64, of a float else */
+    TURNER_UINT64 media; /* the ray starts inside of; SURFACE: what lies beyond (media.glsl) */
+    uint what;
+    uint flags;
+    uint id;             /* of what was met, and its instance */
+    uint instance;
+    uint material;       /* SURFACE */
+    uint light;          /* LIGHT */
+};
+
 #ifndef GL_core_profile
 #undef uint
 #endif

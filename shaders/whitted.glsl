@@ -11,6 +11,14 @@
 #include "light.glsl"
 #include "background.glsl"
 
+// For turner explain (record.glsl); otherwise these lines say nothing.
+#ifdef TURNER_RECORD
+#define RECORD(call) call
+void record_fresnel(vec3 fresnel);
+#else
+#define RECORD(call)
+#endif
+
 struct path_t { // a ray that carries light to the picture
     ray_t ray;
     vec3 weight; // what its radiance counts in the pixel
@@ -59,6 +67,7 @@ secondary_t secondary_rays(turner_gpu_material material, bool transmissive, real
                           : (1.0 - eta) * (1.0 + eta) + eta * eta * c_direction * c_direction;
         s.total = cos2_t < 0.0;
         if (s.total) {
+            RECORD(record_fresnel(vec3(1.0)));
             if (material.fresnel == TURNER_FRESNEL_KIND_NONE)
                 s.w_r += material.k_t;
             return s;
@@ -72,22 +81,27 @@ secondary_t secondary_rays(turner_gpu_material material, bool transmissive, real
         s.w_t = material.k_t;
         if (NEEDS_ANY(TURNER_NEEDS_EXACT) && material.fresnel == TURNER_FRESNEL_KIND_EXACT) {
             float f = float(fresnel_exact(n1, n2, c, c_t));
+            RECORD(record_fresnel(vec3(f)));
             s.w_r *= f;
             s.w_t *= 1.0 - f;
         }
         if (NEEDS_ANY(TURNER_NEEDS_SCHLICK) && material.fresnel == TURNER_FRESNEL_KIND_SCHLICK) {
             float f = float(fresnel_schlick(n1, n2, c, c_t));
+            RECORD(record_fresnel(vec3(f)));
             s.w_r *= f;
             s.w_t *= 1.0 - f;
         }
         return s;
     }
     if (NEEDS_ANY(TURNER_NEEDS_SCHLICK) && material.fresnel == TURNER_FRESNEL_KIND_SCHLICK &&
-        material.k_r != vec3(0.0))
+        material.k_r != vec3(0.0)) {
         s.w_r = fresnel_schlick_metal(material.k_r, float(c));
+        RECORD(record_fresnel(s.w_r));
+    }
     if (NEEDS_ANY(TURNER_NEEDS_CONDUCTOR) && material.fresnel == TURNER_FRESNEL_KIND_CONDUCTOR) {
         float n = NEEDS_ANY(TURNER_NEEDS_MEDIA) ? float(media_index(before)) : 1.0;
         s.w_r *= fresnel_conductor(material.eta / n, material.k / n, float(c));
+        RECORD(record_fresnel(fresnel_conductor(material.eta / n, material.k / n, float(c))));
     }
     return s;
 }
@@ -145,6 +159,10 @@ shading_t shading_of(meeting_t met, real3 V, vec3 weight)
                      dark ? scene.light_count : 0u);
 }
 
+#ifdef TURNER_RECORD
+#include "record.glsl"
+#endif
+
 // The next light that reaches the surface from the front: the ray to it, and what arrives in the
 // pixel if nothing is in the way. False when all have been asked.
 bool next_light(inout shading_t shading, out ray_t ray, out vec3 light)
@@ -152,11 +170,13 @@ bool next_light(inout shading_t shading, out ray_t ray, out vec3 light)
     while (shading.light < scene.light_count) {
         turner_gpu_light source = light_array(scene.lights).at[shading.light++];
         arrival_t arrival = light_arrival(source, shading.surface.point);
+        RECORD(record_light(shading, shading.light - 1u, arrival));
         if (!(dot(shading.N, arrival.direction) > 0.0) || arrival.irradiance == vec3(0.0))
             continue;
         light = shading.weight * arrival.irradiance *
                 local_illumination(shading.material, shading.N, shading.V, arrival.direction);
         ray = spawn_ray(shading.surface, arrival.direction, arrival.distance);
+        RECORD(record_shadow(ray));
         return true;
     }
     return false;
@@ -185,6 +205,7 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
         if (shadow)
             current = to_light;
         ray_t ray = current.ray;
+        RECORD(record_turn(current, shadow, crossings));
         search_t search = trace(ray, shadow);
 
         meeting_t met;
@@ -195,11 +216,13 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
         if (NEEDS_ANY(TURNER_NEEDS_MEDIA))
             current.weight *= media_transmittance(met.crossing.before,
                                                   float(ray.start + search.hit.t));
+        RECORD(record_search(search, ray.start + search.hit.t, met.crossing.before));
 
         if (any && (shadow || !met.crossing.boundary)) {
             // ---- straight on through it ----
             if (++crossings > scene.max_crossings)
                 break;
+            RECORD(record_crossing(search.hit, met, shadow));
             current.ray = spawn_ray(met.surface, ray.direction, ray.t_max - search.hit.t);
             current.media = met.crossing.after;
             if (!shadow) {
@@ -215,6 +238,7 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
             // ---- emission, ambient, and what is sent on; the lights come below ----
             vec3 weight = current.weight;
             shading = shading_of(met, -ray.direction, weight);
+            RECORD(record_surface(search.hit, met, shading));
             add(radiance, weight * (met.material.k_e + met.material.k_a * scene.ambient));
             if (path.depth == 0u)
                 counts.low[TURNER_COUNT_CAMERA_HITS]++;
@@ -223,6 +247,7 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
                 secondary_t sent = secondary_rays(met.material, met.surface.transmissive,
                                                   shading.ng, shading.N, shading.V,
                                                   met.crossing.before, met.crossing.after);
+                RECORD(record_secondary(sent, met, weight));
                 uint depth = path.depth + 1u;
                 // the SPD's counts take every glass for a mirror too, and know no weight
                 bool spd = scene.spd_rays != 0u;
@@ -232,6 +257,7 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
                     next = path_t(spawn_ray(met.surface, sent.reflected, INFINITY),
                                   weight * sent.w_r, depth, met.crossing.before);
                     has_next = true;
+                    RECORD(record_flag(recorded_surface, TURNER_RECORD_REFLECTS));
                     counts.low[TURNER_COUNT_REFLECTED]++;
                     if (sent.total)
                         counts.low[TURNER_COUNT_TIR]++;
@@ -240,6 +266,7 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
                     follow(weight * sent.w_t, depth, spd_t, pruned)) {
                     path_t beyond = path_t(spawn_ray(met.surface, sent.refracted, INFINITY),
                                            weight * sent.w_t, depth, met.crossing.after);
+                    RECORD(record_flag(recorded_surface, TURNER_RECORD_REFRACTS));
                     counts.low[TURNER_COUNT_REFRACTED]++;
                     if (!has_next)
                         next = beyond;
@@ -249,6 +276,7 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
                 }
             }
         } else if (!search.blocked) {
+            RECORD(record_end(shadow, ray, current.weight));
             add(radiance, shadow ? current.weight : current.weight *
                                                              background(vec3(ray.direction)));
         }
@@ -268,6 +296,7 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
         }
         counts.largest_depth = max(counts.largest_depth, path.depth);
     }
+    RECORD(record_event(TURNER_RECORD_UNFINISHED));
     counts.low[TURNER_COUNT_UNFINISHED]++;
     return vec4(radiance.value, pruned);
 }

@@ -14,6 +14,7 @@ static const struct {
 } commands[] = {
     {"render", "draw a scene into a picture", turner_cmd_render},
     {"compare", "say how much two pictures differ", turner_cmd_compare},
+    {"explain", "list the rays that made a pixel, and where they go wrong", turner_cmd_explain},
     {"check", "read scenes or shaders and say what is wrong with them", turner_cmd_check},
     {"chart", "chart speed against accuracy for a grid of settings", turner_cmd_chart},
     {"params", "list the methods that can be chosen, and where they come from", turner_cmd_params},

@@ -62,12 +62,15 @@ static struct turner_secondary opaque_weights(const struct turner_material *mate
     if (material->conductor) {
         turner_vector eta = scale(widen(material->eta), 1 / n1);
         turner_vector k = scale(widen(material->k), 1 / n1);
-        weights.reflected = mul(k_r, vector(turner_fresnel_conductor(eta.x, k.x, c),
-                                            turner_fresnel_conductor(eta.y, k.y, c),
-                                            turner_fresnel_conductor(eta.z, k.z, c)));
+        weights.fresnel = vector(turner_fresnel_conductor(eta.x, k.x, c),
+                                 turner_fresnel_conductor(eta.y, k.y, c),
+                                 turner_fresnel_conductor(eta.z, k.z, c));
+        weights.reflected = mul(k_r, weights.fresnel);
+        weights.has_fresnel = true;
     } else if (material->fresnel == TURNER_FRESNEL_SCHLICK) { /* a metal: k_r is R0 */
-        weights.reflected =
+        weights.reflected = weights.fresnel =
             add(k_r, scale(sub(grey(1), k_r), fifth_power(1 - clamp(c, 0, 1))));
+        weights.has_fresnel = true;
     }
     return weights;
 }
@@ -84,7 +87,8 @@ struct turner_secondary turner_secondary_weights(const struct turner_material *m
 
     bool total = turner_cosine2_refracted(n1, n2, c) < 0;
     if (fresnel == TURNER_FRESNEL_NONE) {
-        return total ? (struct turner_secondary){.reflected = add(k_r, k_t), .total = true}
+        return total ? (struct turner_secondary){.reflected = add(k_r, k_t), .fresnel = grey(1),
+                                                 .has_fresnel = true, .total = true}
                      : (struct turner_secondary){.reflected = k_r, .refracted = k_t};
     }
     turner_real f = fresnel == TURNER_FRESNEL_SCHLICK ? turner_fresnel_schlick(n1, n2, c)
@@ -92,5 +96,6 @@ struct turner_secondary turner_secondary_weights(const struct turner_material *m
     if (total)
         f = 1;
     return (struct turner_secondary){
-        .reflected = scale(k_r, f), .refracted = scale(k_t, 1 - f), .total = total};
+        .reflected = scale(k_r, f), .refracted = scale(k_t, 1 - f), .fresnel = grey(f),
+        .has_fresnel = true, .total = total};
 }

@@ -8,6 +8,8 @@
 
 struct turner_secondary {
     turner_vector reflected, refracted; /* the weights W_r and W_t */
+    turner_vector fresnel;              /* share of the light that is reflected, */
+    bool has_fresnel;                   /* if that is by a formula */
     bool total;                         /* total internal reflection */
 };
 

@@ -3,6 +3,7 @@
 #define TURNER_REFERENCE_REFERENCE_H
 
 #include "base/result.h"
+#include "scene/ray_tree.h"
 #include "scene/scene.h"
 #include "turner.h"
 
@@ -51,5 +52,11 @@ enum turner_result turner_reference_radiance(struct turner_vec3 *radiance, doubl
                                              const struct turner_scene *scene,
                                              struct turner_vec3 origin,
                                              struct turner_vec3 direction);
+
+/* The rays behind the point (px, py) of the picture, in pixels from its top left corner. The caller
+ * destroys the tree, also after a failure. */
+enum turner_result turner_reference_explain(struct turner_ray_tree *tree,
+                                            const struct turner_scene *scene, double px,
+                                            double py);
 
 #endif

@@ -335,9 +335,18 @@ struct probe {
 static void *run_probe(void *argument)
 {
     struct probe *probe = argument;
-    probe->radiance =
-        turner_trace_camera(&probe->tracer, probe->origin, normalize(probe->direction));
+    probe->radiance = turner_trace_camera(&probe->tracer, probe->origin, probe->direction);
     return NULL;
+}
+
+static enum turner_result probe_on_thread(struct probe *probe)
+{
+    pthread_t thread;
+    if (start(&thread, probe->tracer.world->scene->settings.depth, run_probe, probe))
+        return turner_fail(TURNER_DEVICE, "cannot start a thread for the reference tracer; "
+                                          "raise the limit of processes or memory");
+    pthread_join(thread, NULL);
+    return TURNER_OK;
 }
 
 enum turner_result turner_reference_radiance(struct turner_vec3 *radiance, double *pruned,
@@ -350,18 +359,33 @@ enum turner_result turner_reference_radiance(struct turner_vec3 *radiance, doubl
     TURNER_TRY_DONE(turner_world_create(&world, scene));
     struct probe probe = {.tracer = {.world = &world},
                           .origin = widen(origin),
-                          .direction = widen(direction)};
-    pthread_t thread;
-    if (start(&thread, scene->settings.depth, run_probe, &probe)) {
-        result = turner_fail(TURNER_DEVICE, "cannot start a thread for the reference tracer; "
-                                            "raise the limit of processes or memory");
-        goto done;
-    }
-    pthread_join(thread, NULL);
+                          .direction = normalize(widen(direction))};
+    TURNER_TRY_DONE(probe_on_thread(&probe));
     *radiance = turner_vec3_of((double)probe.radiance.x, (double)probe.radiance.y,
                                (double)probe.radiance.z);
     if (pruned)
         *pruned = (double)probe.tracer.pruned;
+done:
+    turner_world_destroy(&world);
+    return result;
+}
+
+enum turner_result turner_reference_explain(struct turner_ray_tree *tree,
+                                            const struct turner_scene *scene, double px, double py)
+{
+    struct turner_world world = {0};
+    enum turner_result result = TURNER_OK;
+    *tree = (struct turner_ray_tree){.mantissa = LDBL_MANT_DIG};
+    TURNER_TRY_DONE(turner_world_create(&world, scene));
+    struct view view = view_of(scene);
+    struct probe probe = {.tracer = {.world = &world, .tree = tree},
+                          .origin = view.from,
+                          .direction = view_direction(&view, px, py)};
+    TURNER_TRY_DONE(probe_on_thread(&probe));
+    tree->radiance[0] = probe.radiance.x;
+    tree->radiance[1] = probe.radiance.y;
+    tree->radiance[2] = probe.radiance.z;
+    tree->pruned = probe.tracer.pruned;
 done:
     turner_world_destroy(&world);
     return result;

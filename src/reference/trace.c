@@ -2,6 +2,7 @@
 
 #include "reference/fresnel.h"
 #include "reference/light.h"
+#include "reference/record.h"
 #include "reference/texture.h"
 
 /* A hit as shading sees it: normals on the viewer's side. */
@@ -12,12 +13,14 @@ struct shading_point {
     bool outside;                /* the viewer is on the side that the geometric normal points to */
     struct turner_media media;   /* on the viewer's side */
     struct turner_media beyond;  /* on the other side, where the material transmits */
+    uint32_t record;             /* of the ray that met it (record.h) */
 };
 
 enum secondary_kind { REFLECTED, REFLECTED_TOTALLY, REFRACTED };
 
 static turner_vector trace(struct turner_tracer *tracer, struct turner_ray ray,
-                           struct turner_media media, int depth, turner_vector weight);
+                           struct turner_media media, int depth, turner_vector weight,
+                           uint32_t record);
 
 static bool transmits(const struct turner_material *material)
 {
@@ -58,31 +61,52 @@ static bool is_none(const struct shading_point *point)
 
 /* ---- local illumination ---- */
 
+/* Notes what is in the way of an opaque shadow, for whoever wants to know. */
+static void record_occluder(struct turner_tracer *tracer, const struct turner_ray *ray,
+                            turner_real distance, uint32_t record)
+{
+    struct turner_hit hit;
+    struct turner_surface surface;
+    if (record != TURNER_NONE && turner_world_intersect(&hit, tracer->world, ray, distance)) {
+        turner_world_surface(&surface, tracer->world, ray, &hit);
+        turner_record_blocked(tracer, record, TURNER_RAY_BLOCKED, &surface, hit.t);
+    }
+}
+
 /* S: what reaches the point from `distance` away along `l`. */
 static turner_vector shadow(struct turner_tracer *tracer, const struct shading_point *from,
-                            turner_vector l, turner_real distance)
+                            turner_vector l, turner_real distance, uint32_t record)
 {
     const struct turner_scene *scene = tracer->world->scene;
     bool viewer_side = dot(l, from->ng) >= 0;
     struct turner_ray ray =
         turner_surface_leave(&from->surface, l, viewer_side == from->outside);
     tracer->statistics.shadow_rays++;
-    if (scene->settings.shadows == TURNER_SHADOWS_OPAQUE)
+    turner_record_shadow(tracer, record, &ray, &from->media);
+    if (scene->settings.shadows == TURNER_SHADOWS_OPAQUE) {
+        record_occluder(tracer, &ray, distance, record);
         return grey(turner_world_occluded(tracer->world, &ray, distance) ? 0 : 1);
+    }
 
+    turner_real way = 0;
     turner_vector through = grey(1);
     struct turner_media media = from->media;
     struct turner_hit hit;
     while (turner_world_intersect(&hit, tracer->world, &ray, distance)) {
         struct shading_point point;
         meet(&point, tracer->world, &ray, &hit, &media);
-        if (!transmits(point.material))
-            return grey(0);
+        way += hit.t;
         through = mul(through, turner_media_transmittance(&point.media, scene, hit.t));
         if (!is_none(&point))
             through = mul(through, widen(point.material->k_t));
-        if (largest(through) == 0)
+        if (!transmits(point.material) || largest(through) == 0) {
+            turner_record_blocked(tracer, record,
+                                  transmits(point.material) ? TURNER_RAY_GIVEN_UP
+                                                            : TURNER_RAY_BLOCKED,
+                                  &point.surface, way);
             return grey(0);
+        }
+        turner_record_crossing(tracer, record, &point.surface, way, !is_none(&point));
         ray = turner_surface_leave(&point.surface, l, !point.outside);
         media = point.beyond;
         distance -= hit.t;
@@ -100,17 +124,21 @@ static turner_vector local_illumination(struct turner_tracer *tracer,
     turner_vector radiance =
         add(widen(material->k_e), mul(mul(widen(material->k_a), color), widen(scene->ambient)));
 
+    turner_record_radiance(tracer, point->record, radiance);
     if (!reflects_light(material))
         return radiance;
     for (size_t j = 0; j < scene->light_count; j++) {
         struct turner_illumination light =
             turner_light_arrive(&scene->lights[j], point->surface.p);
+        uint32_t record = turner_record_light(tracer, point->record, (uint32_t)j, &light,
+                                              point->ns, point->v);
         if (largest(light.irradiance) <= 0 || dot(point->ns, light.direction) <= 0)
             continue;
-        turner_vector s = shadow(tracer, point, light.direction, light.distance);
+        turner_vector s = shadow(tracer, point, light.direction, light.distance, record);
         turner_vector f = turner_phong(material, scene->settings.shading, color, point->ns,
                                        point->v, light.direction);
         radiance = add(radiance, mul(mul(s, light.irradiance), f));
+        turner_record_lit(tracer, record, s, &light, material, color, point->ns, point->v);
     }
     return radiance;
 }
@@ -143,6 +171,12 @@ static turner_vector follow(struct turner_tracer *tracer, const struct shading_p
 {
     const struct turner_settings *settings = &tracer->world->scene->settings;
     struct turner_reference_statistics *statistics = &tracer->statistics;
+    bool outward = kind == REFRACTED ? !point->outside : point->outside;
+    struct turner_ray ray = turner_surface_leave(&point->surface, direction, outward);
+    struct turner_media media = kind == REFRACTED ? point->beyond : point->media;
+    uint32_t record = turner_record_ray(
+        tracer, kind == REFRACTED ? TURNER_RAY_REFRACTED : TURNER_RAY_REFLECTED, depth, &ray,
+        &media, weight);
     if (depth > settings->depth || largest(weight) < settings->cutoff) {
         tracer->pruned += largest(weight);
         return grey(0);
@@ -153,9 +187,7 @@ static turner_vector follow(struct turner_tracer *tracer, const struct shading_p
         statistics->reflected_rays++;
     if (kind == REFLECTED_TOTALLY)
         statistics->tir_rays++;
-    bool outward = kind == REFRACTED ? !point->outside : point->outside;
-    return trace(tracer, turner_surface_leave(&point->surface, direction, outward),
-                 kind == REFRACTED ? point->beyond : point->media, depth, weight);
+    return trace(tracer, ray, media, depth, weight, record);
 }
 
 static turner_vector secondary_radiance(struct turner_tracer *tracer,
@@ -170,6 +202,7 @@ static turner_vector secondary_radiance(struct turner_tracer *tracer,
                                  turner_material_fresnel(&scene->settings, point->material), n1,
                                  n2, dot(point->ns, point->v));
     turner_vector w_r = mul(weight, w.reflected), w_t = mul(weight, w.refracted);
+    turner_record_secondary(tracer, point->record, point->material, n1, n2, &w);
 
     /* The SPD's counts take every glass for a mirror too, and know no weight. */
     bool spd = scene->settings.spd_rays;
@@ -195,9 +228,11 @@ static turner_vector secondary_radiance(struct turner_tracer *tracer,
 
 /* Radiance along a ray that travels in `media` and whose share of the pixel is `weight`. */
 static turner_vector trace(struct turner_tracer *tracer, struct turner_ray ray,
-                           struct turner_media media, int depth, turner_vector weight)
+                           struct turner_media media, int depth, turner_vector weight,
+                           uint32_t record)
 {
     const struct turner_scene *scene = tracer->world->scene;
+    turner_real way = 0;
     turner_vector through = grey(1); /* what absorption leaves on the way to the point */
     struct shading_point point;
     struct turner_hit hit;
@@ -207,18 +242,25 @@ static turner_vector trace(struct turner_tracer *tracer, struct turner_ray ray,
     for (bool none = true; none;) {
         if (!turner_world_intersect(&hit, tracer->world, &ray, INFINITY)) {
             through = mul(through, turner_media_transmittance(&media, scene, INFINITY));
-            return mul(through, turner_background_radiance(scene, ray.direction));
+            turner_vector background = turner_background_radiance(scene, ray.direction);
+            turner_record_background(tracer, record, through, background);
+            return mul(through, background);
         }
         meet(&point, tracer->world, &ray, &hit, &media);
+        way += hit.t;
         through = mul(through, turner_media_transmittance(&point.media, scene, hit.t));
         none = is_none(&point);
         if (none) {
+            turner_record_crossing(tracer, record, &point.surface, way, false);
             ray = turner_surface_leave(&point.surface, ray.direction, !point.outside);
             media = point.beyond;
         }
     }
     if (depth == 0)
         tracer->statistics.camera_hits++;
+    point.record = record;
+    turner_record_surface(tracer, record, &point.surface, point.v, point.ng, point.ns, way,
+                          through);
     turner_vector local = local_illumination(tracer, &point);
     turner_vector secondary = secondary_radiance(tracer, &point, depth, mul(weight, through));
     return mul(through, add(local, secondary));
@@ -229,12 +271,14 @@ turner_vector turner_trace_camera(struct turner_tracer *tracer, turner_vector or
 {
     const struct turner_scene *scene = tracer->world->scene;
     struct turner_ray ray = {.origin = origin, .direction = direction};
+    struct turner_media media = turner_media_of_camera(&scene->camera);
+    uint32_t record = turner_record_ray(tracer, TURNER_RAY_CAMERA, 0, &ray, &media, grey(1));
     if (scene->settings.cutoff > 1) { /* the camera ray's own weight is 1 */
         tracer->pruned += 1;
         return grey(0);
     }
     tracer->statistics.camera_rays++;
-    return trace(tracer, ray, turner_media_of_camera(&scene->camera), 0, grey(1));
+    return trace(tracer, ray, media, 0, grey(1), record);
 }
 
 bool turner_trace_first_hit(struct turner_first_hit *first, const struct turner_world *world,

@@ -5,12 +5,14 @@
 #include "reference/media.h"
 #include "reference/reference.h"
 #include "reference/world.h"
+#include "scene/ray_tree.h"
 
 /* One thread's state while it traces. */
 struct turner_tracer {
     const struct turner_world *world;
     struct turner_reference_statistics statistics;
     turner_real pruned; /* largest channels of the weights cut so far */
+    struct turner_ray_tree *tree; /* where rays are noted down (record.h), or NULL */
 };
 
 /* Radiance that a camera ray brings. Its direction is unit. */

@@ -31,10 +31,10 @@ static void inspect(const struct turner_image *image, struct turner_statistics *
 static void warn(const struct turner_statistics *statistics)
 {
     if (statistics->nonfinite)
-        turner_warn("%llu pixel%s not finite, the first at %d,%d; look for huge radiances or "
-                    "coordinates there", (unsigned long long)statistics->nonfinite,
+        turner_warn("%llu pixel%s not finite, the first at %d,%d; turner explain SCENE --pixel "
+                    "%d,%d says which ray began it", (unsigned long long)statistics->nonfinite,
                     statistics->nonfinite == 1 ? " is" : "s are", statistics->nonfinite_x,
-                    statistics->nonfinite_y);
+                    statistics->nonfinite_y, statistics->nonfinite_x, statistics->nonfinite_y);
     if (statistics->unfinished)
         turner_warn("%llu samples ran into the bound of a loop and are too dark; lower --depth",
                     (unsigned long long)statistics->unfinished);

@@ -58,7 +58,8 @@ enum turner_result turner_choose_kernel(unsigned *kind, const struct turner_gpu_
 enum turner_result turner_kernel_create(struct turner_kernel *kernel, unsigned kind,
                                         const struct turner_render_options *options)
 {
-    static const char *const names[] = {"TURNER_RAY_QUERY", "TURNER_F64", "TURNER_SPHERE_F64"};
+    static const char *const names[] = {"TURNER_RAY_QUERY", "TURNER_F64", "TURNER_SPHERE_F64",
+                                        "TURNER_RECORD"};
     const char *defines[sizeof names / sizeof *names];
     size_t count = 0;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
@@ -170,7 +171,8 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
                                           struct turner_statistics *statistics)
 {
     memset(renderer, 0, sizeof *renderer);
-    assert((kernel->kind & ~(unsigned)TURNER_RAY_QUERY) == kind_of(&scene->settings.methods));
+    assert((kernel->kind & (TURNER_F64 | TURNER_SPHERE_F64)) ==
+           kind_of(&scene->settings.methods));
     renderer->gpu = gpu;
     renderer->ray_query = kernel->kind & TURNER_RAY_QUERY;
     renderer->needs = turner_needs_of(scene);

@@ -11,6 +11,7 @@ enum turner_kernel_kind {
     TURNER_RAY_QUERY = 1 << 0,  /* the device's acceleration structures; without: our own */
     TURNER_F64 = 1 << 1,        /* method precision=f64; the device has float64 */
     TURNER_SPHERE_F64 = 1 << 2, /* method sphere=f64; the same */
+    TURNER_RECORD = 1 << 3,     /* notes down what it does for one pixel (render/explain.h) */
 };
 #define TURNER_KERNEL_KINDS 8 /* combinations */
 
