@@ -30,22 +30,31 @@ static void add_also(cJSON *also, int samples, const char *format, ...)
     cJSON_AddItemToArray(also, cJSON_CreateString(text));
 }
 
-/* Few, the scene's own or else 4, and many. */
+/* Few, the scene's own or else 4, many, and as many as a pixel wants. */
 static int add_samples(cJSON *axes, const struct turner_settings *settings)
 {
     cJSON *list = cJSON_AddArrayToObject(axes, "aa");
-    int middle = settings->spp > 1 && settings->spp < 16 ? settings->spp : 4;
+    bool regular = !(settings->aa_threshold > 0);
+    int middle = regular && settings->spp > 1 && settings->spp < 16 ? settings->spp : 4;
     add_number(list, 1);
     add_number(list, middle);
     add_number(list, 16);
+    cJSON_AddItemToArray(list, cJSON_CreateString("adaptive:0.05,64"));
     return middle;
 }
 
-static void add_depths(cJSON *axes, const struct turner_settings *settings)
+static int deeper_than(const struct turner_settings *settings, uint32_t needs)
+{
+    int most = needs & TURNER_NEEDS_BRANCHING ? TURNER_MAX_BRANCH_DEPTH : TURNER_MAX_DEPTH;
+    int deep = settings->depth > 1 ? 2 * settings->depth : 4;
+    return deep < most ? deep : most;
+}
+
+static void add_depths(cJSON *axes, const struct turner_settings *settings, uint32_t needs)
 {
     cJSON *list = cJSON_AddArrayToObject(axes, "depth");
-    add_number(list, settings->depth > 3 ? 2 : settings->depth > 1 ? 1 : 4);
     add_number(list, settings->depth);
+    add_number(list, deeper_than(settings, needs));
 }
 
 static void add_cutoffs(cJSON *axes, const struct turner_settings *settings)
@@ -97,19 +106,21 @@ char *turner_chart_default_grid(const struct turner_scene *scene)
     uint32_t needs = turner_needs_of(scene).bits;
     cJSON *grid = cJSON_CreateObject(), *axes = cJSON_AddObjectToObject(grid, "axes");
     int samples = add_samples(axes, settings);
-    if (needs & SECONDARY) {
-        add_depths(axes, settings);
-        add_cutoffs(axes, settings);
-    }
     cJSON *also = cJSON_AddArrayToObject(grid, "also");
-    add_also(also, samples, "%s", ""); /* as the scene says */
-    add_also(also, MANY_SAMPLES, "%s", "");
+    char deep[32] = "", finest[80];
+    cJSON_AddItemToArray(also, cJSON_CreateString("")); /* as the scene says */
     if (needs & SECONDARY) {
-        int most = needs & TURNER_NEEDS_BRANCHING ? TURNER_MAX_BRANCH_DEPTH : TURNER_MAX_DEPTH;
-        int deep = settings->depth < most / 2 ? 2 * settings->depth : most;
-        add_also(also, samples, "depth=%d", deep);
-        add_also(also, samples, "cutoff=0.0001");
+        add_depths(axes, settings, needs);
+        add_cutoffs(axes, settings);
+        snprintf(deep, sizeof deep, "depth=%d", deeper_than(settings, needs));
+        add_also(also, 1, "depth=%d", settings->depth / 3);
+        add_also(also, samples, "depth=%d", settings->depth / 3);
+        add_also(also, samples, "cutoff=0.0001 %s", deep);
     }
+    add_also(also, MANY_SAMPLES, "%s", deep);
+    cJSON_AddItemToArray(also, cJSON_CreateString("aa=adaptive:0.2,16"));
+    snprintf(finest, sizeof finest, "aa=adaptive:0.01,256 %s", deep);
+    cJSON_AddItemToArray(also, cJSON_CreateString(finest));
     add_methods(also, scene, needs, samples);
     char *text = cJSON_Print(grid);
     cJSON_Delete(grid);

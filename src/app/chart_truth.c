@@ -117,13 +117,25 @@ static struct turner_chart_truth *find(const struct turner_chart_truths *truths,
     return NULL;
 }
 
+/* Adaptive samples lie where the picture wants them, and the reference has none there. */
+static bool leave_out_adaptive(struct turner_chart_point *point)
+{
+    if (!(point->settings.aa_threshold > 0))
+        return false;
+    snprintf(point->left_out, sizeof point->left_out,
+             "the reference has no adaptive samples to compare with; use --against pixel");
+    point->runs = 0;
+    return true;
+}
+
 static enum turner_result make_truths_of_points(struct turner_chart_truths *truths,
                                                 struct turner_chart *chart)
 {
     for (size_t i = 0; i < chart->point_count; i++) {
         struct turner_settings settings = settings_of_truth(chart, &chart->points[i]);
         double pruned;
-        if (!chart->points[i].runs || find(truths, &settings))
+        if (!chart->points[i].runs || leave_out_adaptive(&chart->points[i]) ||
+            find(truths, &settings))
             continue;
         struct turner_chart_truth *truth =
             TURNER_PUSH(truths->items, truths->count, truths->capacity);
