@@ -26,6 +26,13 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer pos
     vec2 at[]; // in the picture, in pixels
 };
 
+layout(constant_id = TURNER_CONSTANT_PIXEL_COUNTS) const bool PIXEL_COUNTS = false;
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer pixel_count_array
+{
+    turner_gpu_pixel_counts at[];
+};
+
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer counter_block
 {
     turner_gpu_counters the;
@@ -72,6 +79,19 @@ bool sample_of_lane(out vec2 position, out uint index)
     return pixel.x < dispatch.tile_width && pixel.y < dispatch.tile_height;
 }
 
+void count_pixel(uint index, turner_gpu_counters counts)
+{
+    pixel_count_array pixels = pixel_count_array(dispatch.pixel_counts);
+    turner_gpu_pixel_counts sum = turner_gpu_pixel_counts(0u, 0u);
+    if (dispatch.first == 0u)
+        sum = pixels.at[index];
+    uint rays = counts.low[TURNER_COUNT_CAMERA] + counts.low[TURNER_COUNT_REFLECTED] +
+                counts.low[TURNER_COUNT_REFRACTED] + counts.low[TURNER_COUNT_SHADOW];
+    sum.rays = sum.rays + rays < rays ? 0xffffffffu : sum.rays + rays;
+    sum.recursion = max(sum.recursion, counts.largest_depth);
+    pixels.at[index] = sum;
+}
+
 void main()
 {
     scene = scene_block(dispatch.scene).the;
@@ -88,6 +108,8 @@ void main()
         vec4 result = whitted(camera_ray(position), counts);
         pixel_array pixels = pixel_array(dispatch.pixels);
         pixels.at[index] = dispatch.first != 0u ? result : pixels.at[index] + result;
+        if (PIXEL_COUNTS)
+            count_pixel(index, counts);
     }
     add_counts(counts);
 }

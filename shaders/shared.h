@@ -23,6 +23,7 @@
 #define TURNER_CONSTANT_STACK 1     /* pending rays kept at once: max_depth where rays branch */
 #define TURNER_CONSTANT_BVH_STACK 2 /* nodes kept at once: from the depth of the built tree */
 #define TURNER_CONSTANT_METHODS 3   /* TURNER_METHOD_… chosen; 0 is the default of each */
+#define TURNER_CONSTANT_PIXEL_COUNTS 4 /* 1: rays are counted for each pixel, too */
 #define TURNER_WORKGROUP 8          /* a workgroup is 8×8 pixels in Morton order */
 
 /* ---- what a scene may need; what it does not is not in the kernel ---- */
@@ -281,6 +282,13 @@ TURNER_STRUCT(turner_gpu_counters)
     uint largest_depth;
 };
 
+/* The same of one pixel. */
+TURNER_STRUCT(turner_gpu_pixel_counts)
+{
+    uint rays;      /* of all kinds and samples; stays at 2³² − 1 */
+    uint recursion; /* largest depth */
+};
+
 /* Push constants. One sample of every pixel of a tile, or those of a list. */
 TURNER_STRUCT(turner_gpu_dispatch)
 {
@@ -288,6 +296,7 @@ TURNER_STRUCT(turner_gpu_dispatch)
     TURNER_UINT64 pixels;    /* 4 floats a pixel of the tile or sample of the list: sums of
                                 radiance and pruned */
     TURNER_UINT64 counters;
+    TURNER_UINT64 pixel_counts; /* as many as `pixels`, with TURNER_CONSTANT_PIXEL_COUNTS */
     TURNER_UINT64 positions; /* list: `count` places in the picture, in pixels; or 0: a tile */
     uint tile_x;             /* the tile's place in the picture */
     uint tile_y;
@@ -299,6 +308,17 @@ TURNER_STRUCT(turner_gpu_dispatch)
     uint count;
     uint max_depth;
     float cutoff;
+};
+
+/* What the ray through a pixel's centre meets (features.comp). */
+TURNER_STRUCT(turner_gpu_feature)
+{
+    TURNER_VEC3(normal);   /* unit, towards the eye; 0 for the background, as are the next two */
+    float depth;           /* along the ray; infinite for the background */
+    TURNER_VEC3(albedo);
+    uint id;               /* as above, in its instance; TURNER_NO_INDEX for the background */
+    TURNER_VEC3(position);
+    uint instance;
 };
 
 /* ---- what a kernel with TURNER_RECORD notes down (record.glsl): a header and events, behind the

@@ -114,7 +114,7 @@ struct turner_statistics {
     uint64_t nonfinite;       /* pixels that are not finite, and the first one's place */
     int nonfinite_x, nonfinite_y;
     double seconds_parse, seconds_device, seconds_build, seconds_compile, seconds_upload,
-        seconds_trace, seconds_read_back, seconds_write;
+        seconds_layers, seconds_trace, seconds_read_back, seconds_write;
     uint64_t host_peak_bytes, device_peak_bytes;
     uint32_t needs;           /* TURNER_NEEDS_… that were compiled in */
     size_t kernel_words;      /* size of the kernel's SPIR-V before specialisation */

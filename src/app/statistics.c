@@ -95,6 +95,7 @@ static cJSON *statistics_object(const struct turner_scene *scene,
     cJSON_AddNumberToObject(seconds, "build", s->seconds_build);
     cJSON_AddNumberToObject(seconds, "compile", s->seconds_compile);
     cJSON_AddNumberToObject(seconds, "upload", s->seconds_upload);
+    cJSON_AddNumberToObject(seconds, "layers", s->seconds_layers);
     cJSON_AddNumberToObject(seconds, "trace", s->seconds_trace);
     cJSON_AddNumberToObject(seconds, "read_back", s->seconds_read_back);
     cJSON_AddNumberToObject(seconds, "write", s->seconds_write);

@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "reference/trace.h"
+#include "scene/ids.h"
 
 /* ---- camera ---- */
 
@@ -73,7 +74,7 @@ struct job {
     const struct turner_world *world;
     struct turner_image *image;
     struct turner_layers *layers; /* or NULL */
-    const uint32_t *first_ids;    /* turner_scene_first_ids, when ids are wanted */
+    const struct turner_ids *ids; /* when they are wanted */
     struct view view;
     uint32_t pattern;
     atomic_int next_row;
@@ -97,7 +98,7 @@ static uint32_t id_of(const struct job *job, const struct turner_place *place)
 {
     return place->instance == TURNER_INSTANCE_PLANES
                ? 1 + place->primitive
-               : job->first_ids[place->instance] + place->primitive;
+               : turner_id_of(job->ids, (uint32_t)place->instance, place->primitive);
 }
 
 /* The layers that the ray through the pixel's centre decides. */
@@ -250,7 +251,7 @@ static enum turner_result render(struct turner_image *image, struct turner_layer
                                  turner_progress progress, void *user)
 {
     struct turner_world world = {0};
-    uint32_t *first_ids = NULL;
+    struct turner_ids ids = {0};
     pthread_t *handles = NULL;
     enum turner_result result = TURNER_OK;
     int started = 0;
@@ -258,9 +259,9 @@ static enum turner_result render(struct turner_image *image, struct turner_layer
     TURNER_TRY_DONE(turner_world_create(&world, scene));
     TURNER_TRY_DONE(turner_image_create(image, scene->settings.width, scene->settings.height));
     if (layers && layers->whole[TURNER_LAYER_ID])
-        TURNER_TRY_DONE(turner_scene_first_ids(&first_ids, scene));
+        TURNER_TRY_DONE(turner_ids_create(&ids, scene));
 
-    struct job job = {.world = &world, .image = image, .layers = layers, .first_ids = first_ids,
+    struct job job = {.world = &world, .image = image, .layers = layers, .ids = &ids,
                       .view = view_of(scene), .pattern = pattern};
     threads = thread_count(threads, image->height);
     handles = turner_calloc((size_t)threads, sizeof *handles);
@@ -294,7 +295,7 @@ done:
     if (result != TURNER_OK)
         turner_image_destroy(image);
     free(handles);
-    free(first_ids);
+    turner_ids_destroy(&ids);
     turner_world_destroy(&world);
     return result;
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "render/adaptive.h"
+#include "render/layers.h"
 #include "render/renderer.h"
 
 /* What is submitted at once should take about this long: short for a watchdog and for Ctrl-C, long
@@ -24,6 +25,7 @@ static struct turner_gpu_dispatch dispatch_of(const struct turner_renderer *rend
         .scene = renderer->scene.arrays[TURNER_ARRAY_SCENE].address,
         .pixels = renderer->pixels.address,
         .counters = renderer->counters.address,
+        .pixel_counts = renderer->pixel_counts.address,
         .first = 1,
         .max_depth = (uint32_t)renderer->settings.depth,
         .cutoff = (float)renderer->settings.cutoff,
@@ -107,6 +109,24 @@ static void read_back(const struct turner_renderer *renderer, struct turner_imag
     }
 }
 
+/* The counts of its rays into the layers. */
+static void read_back_counts(const struct turner_renderer *renderer, struct turner_layers *layers,
+                             struct tile tile)
+{
+    const struct turner_gpu_pixel_counts *from = renderer->pixel_counts.mapped;
+    uint32_t *rays = layers->whole[TURNER_LAYER_RAYS];
+    uint32_t *recursion = layers->whole[TURNER_LAYER_RECURSION];
+    for (int y = tile.y; y < tile.y + tile.height; y++) {
+        for (int x = tile.x; x < tile.x + tile.width; x++, from++) {
+            size_t pixel = (size_t)y * (size_t)layers->width + (size_t)x;
+            if (rays)
+                rays[pixel] = from->rays;
+            if (recursion)
+                recursion[pixel] = from->recursion;
+        }
+    }
+}
+
 static void add_counters(const struct turner_renderer *renderer,
                          struct turner_statistics *statistics)
 {
@@ -163,6 +183,8 @@ static enum turner_result draw_regular(struct turner_renderer *renderer, struct 
             }
             double traced = turner_seconds();
             read_back(renderer, image, tile);
+            if (renderer->needs.pixel_counts)
+                read_back_counts(renderer, options->layers, tile);
             statistics->seconds_trace += traced - start;
             statistics->seconds_read_back += turner_seconds() - traced;
             done += (double)tile.width * tile.height;

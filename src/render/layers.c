@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "scene/ids.h"
 #include "scene/nearest.h"
 
 /* Channel names are letters, one a channel: what other programs make of "normal.X" or "depth.Z" is
@@ -99,10 +100,9 @@ enum turner_result turner_layers_create(struct turner_layers *layers,
     enum turner_result result = TURNER_OK;
     TURNER_TRY_DONE(check_memory(layers));
     if (turner_layers_want(layers, 1u << TURNER_LAYER_ID)) {
-        uint32_t *first = NULL;
-        result = turner_scene_first_ids(&first, scene);
-        free(first);
-        TURNER_TRY_DONE(result);
+        struct turner_ids ids;
+        TURNER_TRY_DONE(turner_ids_create(&ids, scene));
+        turner_ids_destroy(&ids);
     }
     size_t pixels = (size_t)layers->width * (size_t)layers->height;
     for (int i = 0; i < TURNER_LAYERS; i++) {

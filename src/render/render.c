@@ -4,6 +4,8 @@
 #include <sys/resource.h>
 
 #include "reference/reference.h"
+#include "render/adaptive.h"
+#include "render/features.h"
 #include "render/layers.h"
 #include "render/renderer.h"
 
@@ -86,6 +88,9 @@ static enum turner_result draw_on_device(struct turner_image *image,
     TURNER_TRY_DONE(turner_renderer_create(&renderer, &gpu, &kernel, scene, options, statistics));
     statistics->traversal = kind & TURNER_RAY_QUERY ? "ray_query" : "bvh";
     statistics->precision = methods->precision == TURNER_PRECISION_F64 ? "f64" : "f32";
+    if (turner_layers_want(options->layers, TURNER_LAYERS_OF_CENTER))
+        TURNER_TRY_DONE(turner_features_draw(options->layers, &renderer, &kernel, scene, options,
+                                             statistics));
     TURNER_TRY_DONE(turner_renderer_draw(&renderer, image, options, statistics));
 done:
     turner_renderer_destroy(&renderer);
@@ -115,9 +120,10 @@ enum turner_result turner_render(struct turner_image *image, const struct turner
     if (turner_layers_want(options->layers, 1u << TURNER_LAYER_ERROR))
         return turner_fail(TURNER_USAGE, "the layer error is not known of this picture; ask for "
                                          "pruned, or leave it out");
-    if (!reference &&
-        turner_layers_want(options->layers, TURNER_LAYERS_OF_CENTER | TURNER_LAYERS_OF_RAYS))
-        return turner_fail(TURNER_USAGE, "these layers are only made with --device reference");
+    if (!reference && turner_adaptive_wanted(&scene->settings) &&
+        turner_layers_want(options->layers, TURNER_LAYERS_OF_RAYS))
+        return turner_fail(TURNER_USAGE, "the layers rays and recursion need a fixed number of "
+                                         "samples: use --spp, or ask for samples");
     if (options->layers)
         TURNER_TRY(turner_layers_create(options->layers, scene));
     if (!reference) /* that makes its own */

@@ -9,6 +9,7 @@
 #include "gpu/include.h"
 #include "gpu/specialise.h"
 #include "render/adaptive.h"
+#include "render/layers.h"
 
 double turner_seconds(void)
 {
@@ -58,6 +59,13 @@ enum turner_result turner_choose_kernel(unsigned *kind, const struct turner_gpu_
 enum turner_result turner_kernel_create(struct turner_kernel *kernel, unsigned kind,
                                         const struct turner_render_options *options)
 {
+    return turner_kernel_create_from(kernel, "render.comp", kind, options);
+}
+
+enum turner_result turner_kernel_create_from(struct turner_kernel *kernel, const char *file,
+                                             unsigned kind,
+                                             const struct turner_render_options *options)
+{
     static const char *const names[] = {"TURNER_RAY_QUERY", "TURNER_F64", "TURNER_SPHERE_F64",
                                         "TURNER_RECORD"};
     const char *defines[sizeof names / sizeof *names];
@@ -70,7 +78,7 @@ enum turner_result turner_kernel_create(struct turner_kernel *kernel, unsigned k
     kernel->kind = kind;
     struct turner_shader_source source;
     enum turner_result result;
-    TURNER_TRY_DONE(turner_shader_source_create(&source, "render.comp", options->shader_dirs,
+    TURNER_TRY_DONE(turner_shader_source_create(&source, file, options->shader_dirs,
                                                 options->shader_dir_count));
     TURNER_TRY_DONE(turner_compile(&kernel->spirv, &source, defines, count));
 done:
@@ -97,6 +105,7 @@ struct turner_kernel_constants turner_kernel_constants(const struct turner_needs
         {TURNER_CONSTANT_STACK, needs->stack > 1 ? round_up(needs->stack, 8) : 1},
         {TURNER_CONSTANT_BVH_STACK, round_up(bvh_depth + 1, 16)},
         {TURNER_CONSTANT_METHODS, needs->methods},
+        {TURNER_CONSTANT_PIXEL_COUNTS, needs->pixel_counts},
     }};
 }
 
@@ -150,6 +159,10 @@ static enum turner_result create(struct turner_renderer *renderer,
                                     TURNER_MEMORY_HOST, "a tile of pixels"));
     TURNER_TRY(turner_buffer_create(&renderer->counters, gpu, sizeof(struct turner_gpu_counters),
                                     0, TURNER_MEMORY_HOST, "ray counters"));
+    if (renderer->needs.pixel_counts)
+        TURNER_TRY(turner_buffer_create(&renderer->pixel_counts, gpu,
+                                        pixels * sizeof(struct turner_gpu_pixel_counts), 0,
+                                        TURNER_MEMORY_HOST, "ray counts of a tile"));
     if (adaptive)
         TURNER_TRY(turner_buffer_create(&renderer->positions, gpu,
                                         TURNER_LIST_MAX * 2 * sizeof(float), 0,
@@ -176,6 +189,7 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
     renderer->gpu = gpu;
     renderer->ray_query = kernel->kind & TURNER_RAY_QUERY;
     renderer->needs = turner_needs_of(scene);
+    renderer->needs.pixel_counts = turner_layers_want(options->layers, TURNER_LAYERS_OF_RAYS);
     renderer->settings = scene->settings;
     renderer->tile = options->tile;
     enum turner_result result = create(renderer, kernel, scene, options, statistics);
@@ -189,6 +203,7 @@ void turner_renderer_destroy(struct turner_renderer *renderer)
     struct turner_gpu *gpu = renderer->gpu;
     if (!gpu)
         return;
+    turner_buffer_destroy(gpu, &renderer->pixel_counts);
     turner_buffer_destroy(gpu, &renderer->counters);
     turner_buffer_destroy(gpu, &renderer->pixels);
     turner_buffer_destroy(gpu, &renderer->positions);

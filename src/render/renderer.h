@@ -24,11 +24,15 @@ struct turner_kernel {
 /* TURNER_BAD_INPUT with file, line and text for a broken shader. */
 enum turner_result turner_kernel_create(struct turner_kernel *kernel, unsigned kind,
                                         const struct turner_render_options *options);
+/* The same of another file than render.comp. */
+enum turner_result turner_kernel_create_from(struct turner_kernel *kernel, const char *file,
+                                             unsigned kind,
+                                             const struct turner_render_options *options);
 void turner_kernel_destroy(struct turner_kernel *kernel);
 
 /* What specialises a kernel to a scene. */
 struct turner_kernel_constants {
-    struct turner_constant at[4];
+    struct turner_constant at[5];
 };
 
 /* `bvh_depth` is turner_flat.max_depth. */
@@ -49,6 +53,7 @@ struct turner_renderer {
     struct turner_buffer pixels;    /* of one tile, or results of one list */
     struct turner_buffer positions; /* of one list; adaptive pictures only */
     struct turner_buffer counters;
+    struct turner_buffer pixel_counts; /* as many as `pixels`, where needs.pixel_counts */
     struct turner_settings settings;
     int tile;    /* fixed edge in pixels, or 0: follows the time a tile takes */
     size_t list; /* samples of a list traced at once: follows the time they take */

@@ -107,27 +107,6 @@ size_t turner_group_primitive_count(const struct turner_group *group)
     return count;
 }
 
-enum turner_result turner_scene_first_ids(uint32_t **first, const struct turner_scene *scene)
-{
-    uint64_t next = 1 + scene->plane_count;
-    size_t *counts = turner_calloc(scene->group_count, sizeof *counts);
-    for (size_t i = 0; i < scene->group_count; i++)
-        counts[i] = turner_group_primitive_count(&scene->groups[i]);
-    *first = turner_calloc(scene->instance_count + 1, sizeof **first);
-    for (size_t i = 0; i <= scene->instance_count; i++) {
-        (*first)[i] = (uint32_t)next;
-        next += counts[i == 0 ? 0 : scene->instances[i - 1].group];
-    }
-    free(counts);
-    if (next <= (uint64_t)UINT32_MAX + 1)
-        return TURNER_OK;
-    free(*first);
-    *first = NULL;
-    return turner_fail(TURNER_BAD_INPUT,
-                       "the scene has more primitives, counted in each instance, than the layer id "
-                       "has numbers (2³² − 1); ask for other layers");
-}
-
 void turner_group_add_box(struct turner_group *group, struct turner_vec3 lo, struct turner_vec3 hi,
                           uint32_t material)
 {

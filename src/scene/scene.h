@@ -242,12 +242,6 @@ void turner_group_add_box(struct turner_group *group, struct turner_vec3 lo, str
 /* Sorts media as stated above and mends every reference to them. Readers call it once. */
 void turner_scene_sort_media(struct turner_scene *scene);
 
-/* Numbers of what can be seen, for the layer `id`: 0 is the background, 1 the first plane; then come
- * the primitives of group 0, then those of each instance's group, instance by instance; in a group
- * spheres, cones, then triangles, mesh by mesh. `*first` (free) becomes the number of the first
- * primitive of group 0, [1 + i] that of instance i. TURNER_BAD_INPUT when 32 bits do not suffice. */
-enum turner_result turner_scene_first_ids(uint32_t **first, const struct turner_scene *scene);
-
 /* Sample `index` of `count` of a pixel, in [0,1)²; one sample lies in the centre. The pattern is
  * Hammersley's: x = (i + ½)/count, y = van der Corput base 2 of i plus half its last step. */
 void turner_sample_position(double *x, double *y, int index, int count);

@@ -27,8 +27,8 @@ bool is_off(const float *pixel, const float *truth, struct tolerance tolerance)
     return false;
 }
 
-/* The camera ray through a point of the picture, docs/model.md "Camera". */
-static struct turner_vec3 camera_direction(const struct turner_scene *scene, double x, double y)
+/* docs/model.md "Camera" */
+struct turner_vec3 explain_direction(const struct turner_scene *scene, double x, double y)
 {
     const struct turner_camera *camera = &scene->camera;
     double height = scene->settings.height;
@@ -45,7 +45,7 @@ static struct turner_vec3 camera_direction(const struct turner_scene *scene, dou
 static struct probe probe_at(const struct turner_scene *scene, const struct turner_world *world,
                              double x, double y)
 {
-    struct turner_vec3 d = camera_direction(scene, x, y);
+    struct turner_vec3 d = explain_direction(scene, x, y);
     turner_vector origin = {scene->camera.from.x, scene->camera.from.y, scene->camera.from.z};
     turner_vector direction = {d.x, d.y, d.z};
     struct turner_tracer tracer = {.world = world};

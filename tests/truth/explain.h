@@ -25,6 +25,9 @@ struct tolerance {
 };
 bool is_off(const float *pixel, const float *truth, struct tolerance tolerance);
 
+/* The camera ray through a point of the picture, in pixels; unit. */
+struct turner_vec3 explain_direction(const struct turner_scene *scene, double x, double y);
+
 /* The cause why pixel (x, y), one sample in its centre, may have the radiance `pixel`: the
  * reference takes values on both sides of it within EXPLAIN_RADIUS of the centre. `scene` is the
  * one that `world` was made of; it is changed and put back. */
