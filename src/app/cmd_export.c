@@ -80,8 +80,8 @@ static enum turner_result draw(const struct turner_scene *scene, const char *pat
     char folder[4096], name[256];
     if (length < 5 || strcmp(file + length - 4, ".pov") != 0)
         return turner_fail(TURNER_USAGE, "%s: with --run the name must end in .pov", path);
-    if (snprintf(folder, sizeof folder, "%.*s", slash ? (int)(file - path) : 1,
-                 slash ? path : ".") >= (int)sizeof folder ||
+    int end = !slash || slash == path ? 1 : (int)(slash - path);
+    if (snprintf(folder, sizeof folder, "%.*s", end, slash ? path : ".") >= (int)sizeof folder ||
         snprintf(name, sizeof name, "%.*s", (int)length - 4, file) >= (int)sizeof name)
         return turner_fail(TURNER_USAGE, "%s: this name is too long", path);
     struct turner_image image;

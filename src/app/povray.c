@@ -98,11 +98,13 @@ enum turner_result turner_povray_render(struct turner_image *image,
         snprintf(exr, sizeof exr, "%s/%s.exr", folder, name) >= (int)sizeof exr ||
         snprintf(log, sizeof log, "%s.log", name) >= (int)sizeof log)
         return turner_fail(TURNER_USAGE, "%s/%s: this name is too long", folder, name);
+    if (strchr(name, '"'))
+        return turner_fail(TURNER_USAGE, "%s: povray takes no names with quotes", name);
     TURNER_TRY(turner_pov_write(scene, pov));
     if (unlink(exr) != 0 && errno != ENOENT)
         return turner_fail(TURNER_OUTPUT, "%s: cannot be replaced: %s", exr, strerror(errno));
-    snprintf(input, sizeof input, "+I%s.pov", name);
-    snprintf(output, sizeof output, "+O%s.exr", name);
+    snprintf(input, sizeof input, "+I\"%s.pov\"", name); /* it takes such words apart at spaces */
+    snprintf(output, sizeof output, "+O\"%s.exr\"", name);
     snprintf(width, sizeof width, "+W%d", scene->settings.width);
     snprintf(height, sizeof height, "+H%d", scene->settings.height);
     /* OpenEXR, best quality, no antialiasing, no window, no wait: whatever a povray.ini says. */

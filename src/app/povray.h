@@ -13,9 +13,9 @@ bool turner_povray_found(void);
 
 /* Draws `scene` at its settings.width × settings.height by POV-Ray: writes folder/name.pov, runs
  * povray on it, and reads back folder/name.exr, linear radiance rounded to half floats (relative
- * error 2⁻¹¹), one sample in the centre of each pixel; the fourth channel is 0. The three files and
- * povray's words, folder/name.log, are left there; old ones are replaced. `name` is a plain file
- * name. Free `image` with turner_image_destroy, also after a failure.
+ * error 2⁻¹¹, infinite above 65504), one sample in the centre of each pixel; the fourth channel is
+ * 0. Both and povray's words, folder/name.log, are left there; old ones are replaced. `name` is a
+ * plain file name without quotes. Free `image` with turner_image_destroy, also after a failure.
  * TURNER_BAD_INPUT as turner_pov_write, for what POV-Ray cannot say; TURNER_DEVICE when povray is
  * missing, fails, or takes more than TURNER_POVRAY_SECONDS; TURNER_OUTPUT when a file cannot be
  * written. */

@@ -65,6 +65,14 @@ def runner():
     fake.write_text("#!/bin/sh\necho no such thing; exit 3\n")
     turner(*arguments, status=DEVICE, env=alone)
     assert pathlib.Path("x.log").read_text() == "no such thing\n"
+    turner("export", "scene.json", "--pov", "-o", 'a"b.pov', "--run", status=USAGE, env=alone)
+    if shutil.which("povray"):
+        spaced = pathlib.Path("a folder")
+        spaced.mkdir()
+        turner("export", "scene.json", "--pov", "-o", spaced / "my scene.pov", "--run", "--size",
+               "8x6")
+        assert {p.name for p in spaced.iterdir()} == {"my scene.pov", "my scene.exr",
+                                                     "my scene.log"}
 
 
 def difference(scene, threshold, relative, *options):
