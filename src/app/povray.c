@@ -115,8 +115,8 @@ enum turner_result turner_povray_render(struct turner_image *image,
         return turner_fail_within(TURNER_DEVICE, "povray left no picture (its words are in %s/%s)",
                                   folder, log);
     if (image->width != scene->settings.width || image->height != scene->settings.height)
-        return turner_fail(TURNER_DEVICE, "%s: povray drew %d×%d pixels, not %d×%d; its words are in "
-                           "%s/%s", exr, image->width, image->height, scene->settings.width,
+        return turner_fail(TURNER_DEVICE, "%s: povray drew %d×%d pixels, not %d×%d; its words are "
+                           "in %s/%s", exr, image->width, image->height, scene->settings.width,
                            scene->settings.height, folder, log);
     return TURNER_OK;
 }

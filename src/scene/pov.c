@@ -70,7 +70,7 @@ static void write_background(FILE *out, const struct turner_background *backgrou
 /* How far from the camera a sun is put. Its light is parallel all the same, but what lies beyond it
  * casts no shadow; POV-Ray follows no ray beyond 1e7. */
 #define SUN_DISTANCE 1e9
-/* POV-Ray's colour × 2/(1 + (d/fade)²) is J/d² but for a share fade²/d²; it takes no smaller one. */
+/* POV-Ray's colour × 2/(1 + (d/fade)²) is J/d² but for a share fade²/d²; none smaller is taken. */
 #define FADE_DISTANCE 1e-9
 
 static void write_light(FILE *out, const struct turner_light *light, struct turner_vec3 eye)

@@ -8,8 +8,9 @@
 
 /* Writes `scene` (a valid one) to `path`, whole or not at all. What POV-Ray takes on its command
  * line is not in the file: the size of the picture (settings.width × settings.height, which the
- * camera's shape is made for) and the samples per pixel. TURNER_BAD_INPUT, naming it and what to do,
- * for what a scene uses and POV-Ray cannot say; TURNER_OUTPUT when the file cannot be written. */
+ * camera's shape is made for) and the samples per pixel. TURNER_BAD_INPUT, naming it and what to
+ * do, for what a scene uses and POV-Ray cannot say; TURNER_OUTPUT when the file cannot be
+ * written. */
 enum turner_result turner_pov_write(const struct turner_scene *scene, const char *path);
 
 #endif

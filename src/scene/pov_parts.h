@@ -24,8 +24,9 @@ enum turner_result turner_pov_check_secondary(const struct turner_scene *scene, 
 /* Whether patterns are on planes and meshes only. */
 enum turner_result turner_pov_check_patterns(const struct turner_scene *scene);
 
-/* Spheres of the world filled with air (index 1, no absorption, of higher priority) in a transmissive
- * sphere or mesh of the world: the only solids in another one that POV-Ray can be told of. */
+/* Spheres of the world filled with air (index 1, no absorption, of higher priority) in a
+ * transmissive sphere or mesh of the world: the only solids in another one that POV-Ray can be told
+ * of. */
 struct turner_pov_hole {
     const struct turner_sphere *sphere;
     const void *container; /* a struct turner_sphere or turner_mesh */

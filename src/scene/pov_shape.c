@@ -4,9 +4,9 @@
 #include "base/memory.h"
 #include "scene/pov_parts.h"
 
-/* What a primitive is printed as: with its material, as part of a union that has the interior, or as
- * the shade it casts. A transmissive thing lets light through in POV-Ray; under `shadows: opaque` it
- * casts no shadow itself, and a black twin that nothing but shadow rays can see does. */
+/* What a primitive is printed as: with its material, as part of a union that has the interior, or
+ * as the shade it casts. A transmissive thing lets light through in POV-Ray; under `shadows: opaque`
+ * it casts no shadow itself, and a black twin that nothing but shadow rays can see does. */
 enum role { ROLE_ITSELF, ROLE_PART, ROLE_SHADE };
 
 static bool has_shade(const struct turner_scene *scene, uint32_t material)
@@ -240,8 +240,8 @@ static enum turner_result check_group(const struct turner_scene *scene,
                      : cone ? group->cones[i - group->sphere_count].material
                             : group->spheres[i].material;
         if (scene->materials[m].pattern != TURNER_PATTERN_NONE)
-            return turner_fail(TURNER_BAD_INPUT, "%s is on a %s, round which POV-Ray lays a pattern "
-                               "otherwise: use it on planes and meshes only",
+            return turner_fail(TURNER_BAD_INPUT, "%s is on a %s, round which POV-Ray lays a "
+                               "pattern otherwise: use it on planes and meshes only",
                                turner_pov_material_name(scene, m), cone ? "cone" : "sphere");
     }
     return TURNER_OK;

@@ -277,8 +277,8 @@ static enum turner_result check_apart(struct turner_pov_holes *holes,
             }
             char first[256];
             snprintf(first, sizeof first, "%s", turner_pov_material_name(scene, a->material));
-            return turner_fail(TURNER_BAD_INPUT, "POV-Ray has no media priorities: solids of %s and "
-                               "%s overlap, or the boxes around them do; move them apart", first,
+            return turner_fail(TURNER_BAD_INPUT, "POV-Ray has no media priorities: solids of %s "
+                               "and %s overlap, or the boxes around them do; move them apart", first,
                                turner_pov_material_name(scene, b->material));
         }
     }
@@ -313,7 +313,7 @@ static enum turner_result check_eye(const struct turner_scene *scene, const stru
     }
     if (found != camera->inside_count || !same)
         return turner_fail(TURNER_BAD_INPUT, "POV-Ray finds the camera inside of %u media by where "
-                           "it stands, the scene says %u: mend \"inside\" of the camera, or move it",
+                           "it stands, the scene says %u: mend the camera's \"inside\", or move it",
                            (unsigned)found, (unsigned)camera->inside_count);
     return TURNER_OK;
 }
@@ -330,8 +330,8 @@ static enum turner_result check_lamps(const struct turner_scene *scene, const st
             const struct solid *s = &solids->list[k];
             if (boxes_meet(&lamp, s) &&
                 !turner_pov_zero(scene->media[scene->materials[s->material].medium].absorption))
-                return turner_fail(TURNER_BAD_INPUT, "light %zu is in or near an absorbing solid of "
-                                   "%s: POV-Ray does not absorb its light, move it away", i,
+                return turner_fail(TURNER_BAD_INPUT, "light %zu is in or near an absorbing solid "
+                                   "of %s: POV-Ray does not absorb its light, move it away", i,
                                    turner_pov_material_name(scene, s->material));
         }
     }

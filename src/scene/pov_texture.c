@@ -1,7 +1,7 @@
-/* Materials. A layered texture of POV-Ray adds up what each layer gives, times what the layers above
- * let through (f·colour + t); ambient, diffuse and emission of a layer are scaled by 1 − f − t, phong
- * and reflection are not. So each of our terms gets a layer of its own, those above the last with
- * t = ½ and colours made up for it by powers of two. */
+/* Materials. A layered texture of POV-Ray adds up what each layer gives, times what the layers
+ * above let through (f·colour + t); ambient, diffuse and emission of a layer are scaled by
+ * 1 − f − t, phong and reflection are not. So each of our terms gets a layer of its own, those above
+ * the last with t = ½ and colours made up for it by powers of two. */
 #include <stdlib.h>
 
 #include "scene/pov_parts.h"
@@ -63,10 +63,12 @@ static struct layers layers_of(const struct turner_scene *scene, const struct tu
     struct layers layers = {0};
     bool patterned = m->pattern != TURNER_PATTERN_NONE;
     struct turner_vec3 ambient = product(m->k_a, scene->ambient), emission = m->k_e;
-    struct turner_vec3 through = m->k_t, k_s = scene->light_count ? m->k_s : (struct turner_vec3){0};
+    struct turner_vec3 through = m->k_t, k_s = {0};
     double albedo = scene->settings.shading == TURNER_SHADING_PHONG ? 1 : 1 / M_PI;
-    if (scene->light_count)
+    if (scene->light_count) {
+        k_s = m->k_s;
         add_layer(&layers, LAYER_DIFFUSE, turner_vec3_scale(m->k_d, albedo), patterned);
+    }
     if (patterned)
         add_layer(&layers, LAYER_EMISSION, ambient, true);
     else
@@ -126,13 +128,13 @@ static enum turner_result check_local(const struct turner_scene *scene, uint32_t
     bool highlight = scene->light_count && !turner_pov_zero(s);
     if (highlight && scene->settings.shading == TURNER_SHADING_ENERGY_CONSERVING)
         return turner_fail(TURNER_BAD_INPUT, "%s: POV-Ray's highlight lacks the factor N·L of "
-                           "\"energy_conserving\": use \"shading\": \"phong\", or a k_s of 0", name);
+                           "\"energy_conserving\": use \"shading\": \"phong\", or no k_s", name);
     if (highlight && ((s.x == 0 && t.x > 0) || (s.y == 0 && t.y > 0) || (s.z == 0 && t.z > 0)))
         return turner_fail(TURNER_BAD_INPUT, "%s: a coloured highlight on what transmits is beyond "
                            "POV-Ray where a channel of k_s is 0: use a grey k_s", name);
     if (m->pattern == TURNER_PATTERN_IMAGE)
-        return turner_fail(TURNER_BAD_INPUT, "%s: POV-Ray does not filter a picture as turner does: "
-                           "use a checker or a plain colour", name);
+        return turner_fail(TURNER_BAD_INPUT, "%s: POV-Ray does not filter a picture as turner "
+                           "does: use a checker or a plain colour", name);
     return TURNER_OK;
 }
 

@@ -1,4 +1,4 @@
-"""The terms of the model, a few a scene: (name, scene, pixels that may differ, each with a reason)."""
+"""The terms of the model, a few a scene: (name, scene, pixels that may differ)."""
 
 import math
 
@@ -140,8 +140,9 @@ def terms():
     cube = [box("exact", [-40, -40, -40], [40, 40, 40])]
     tilt = {"rotate": 40, "axis": [1, 1, 0.3]}
     yield "total reflection in cubes", scene_of(
-        wall, materials=cubes, groups={"g": cube}, **far, instances=[instance("g", tilt, {"translate": [140 * (i - 1), 0, 0]}, material=m)
-                   for i, m in enumerate(cubes)]), 0
+        wall, materials=cubes, groups={"g": cube}, **far, instances=[
+            instance("g", tilt, {"translate": [140 * (i - 1), 0, 0]}, material=m)
+            for i, m in enumerate(cubes)]), 0
     yield "water", scene_of(plane("water", -0.5), plane("checker", -1.5),
                             materials={"water": glass | {"index": 1.333}}), 0
     water = {"k_r": 1, "k_t": 1, "medium": "water"}

@@ -1,6 +1,7 @@
 """pov.py command | runner | terms | scenes: the export to POV-Ray.
 
-`terms` and `scenes` draw the same scene by POV-Ray and by the reference and compare: two programs that share no line.
+`terms` and `scenes` draw the same scene by POV-Ray and by the reference and compare: two programs
+that share no line.
 Environment: TURNER, the command; SCENES, the folder of scenes. Exit status 77 without povray.
 """
 
