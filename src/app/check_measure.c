@@ -114,7 +114,7 @@ static enum turner_result measure_scene(struct session *session, struct row *row
     if (how->width)
         settings->width = how->width, settings->height = how->height;
     if (how->spp)
-        settings->spp = how->spp;
+        settings->spp = how->spp, settings->aa_threshold = 0;
     TURNER_TRY(turner_scene_validate(scene));
     row->width = settings->width;
     row->height = settings->height;
