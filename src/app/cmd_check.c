@@ -30,7 +30,7 @@ static void print_help(void)
          "  -q, --quiet         say only what is wrong\n"
          "  -h, --help          this text\n\n"
          "Examples: turner check --needs scenes/prism.json\n"
-         "          turner check --measure out --size 320x240 scenes/*.json");
+         "          turner check --measure out --size 320x240 scenes/prism.json scenes/mesh.json");
 }
 
 static void describe(const char *path, const struct turner_scene *scene)
