@@ -5,6 +5,8 @@
 
 #include "reference/reference.h"
 #include "render/adaptive.h"
+#include "render/cells.h"
+#include "render/contrast.h"
 #include "render/features.h"
 #include "render/layers.h"
 #include "render/renderer.h"
@@ -40,6 +42,12 @@ static void warn(const struct turner_statistics *statistics)
     if (statistics->unfinished)
         turner_warn("%llu samples ran into the bound of a loop and are too dark; lower --depth",
                     (unsigned long long)statistics->unfinished);
+}
+
+/* Of a pixel. */
+static int least_samples(const struct turner_settings *settings)
+{
+    return turner_adaptive_wanted(settings) ? TURNER_CELL_SAMPLES : settings->spp;
 }
 
 static enum turner_result draw_by_reference(struct turner_image *image,
@@ -117,9 +125,6 @@ enum turner_result turner_render(struct turner_image *image, const struct turner
 
     memset(image, 0, sizeof *image);
     bool reference = options->device && strcmp(options->device, "reference") == 0;
-    if (turner_layers_want(options->layers, 1u << TURNER_LAYER_ERROR))
-        return turner_fail(TURNER_USAGE, "the layer error is not known of this picture; ask for "
-                                         "pruned, or leave it out");
     if (!reference && turner_adaptive_wanted(&scene->settings) &&
         turner_layers_want(options->layers, TURNER_LAYERS_OF_RAYS))
         return turner_fail(TURNER_USAGE, "the layers rays and recursion need a fixed number of "
@@ -133,6 +138,9 @@ enum turner_result turner_render(struct turner_image *image, const struct turner
     inspect(image, statistics);
     if (options->layers)
         turner_layers_inspect(options->layers, image);
+    if (turner_layers_want(options->layers, 1u << TURNER_LAYER_ERROR))
+        turner_contrast_estimate(options->layers->real[TURNER_LAYER_ERROR], image,
+                                 least_samples(&scene->settings));
     warn(statistics);
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);

@@ -25,9 +25,8 @@ SCENE = {
         {"type": "box", "min": [-3, -2, -2], "max": [3, -1, 1], "material": "grey"}],
     "lights": [{"type": "point", "position": [2, 4, 3], "intensity": 30}]}
 REAL = {"R", "G", "B", "albedo.R", "albedo.G", "albedo.B", "depth.Z", "normal.X", "normal.Y",
-        "normal.Z", "position.X", "position.Y", "position.Z", "pruned.X"}
+        "normal.Z", "position.X", "position.Y", "position.Z", "pruned.X", "error.X"}
 WHOLE = {"id.X", "nonfinite.X", "rays.X", "recursion.X", "samples.X"}
-NAMES = "normal,albedo,position,depth,id,rays,recursion,samples,pruned,nonfinite"
 
 
 def turner(*arguments, status=0):
@@ -45,9 +44,9 @@ def files():
     for device in ([], ["--device", "reference"]):
         plain = json.loads(turner("render", "scene.json", "-o", "plain.exr", "--stats", "-",
                                   *device).stdout)
-        told = json.loads(turner("render", "scene.json", "-o", "a.exr", "--aov", NAMES, "--stats",
+        told = json.loads(turner("render", "scene.json", "-o", "a.exr", "--aov", "all", "--stats",
                                  "-", *device).stdout)
-        turner("render", "scene.json", "-o", "b.exr", "--aov", NAMES, "--tile", "7", "-q", *device)
+        turner("render", "scene.json", "-o", "b.exr", "--aov", "all", "--tile", "7", "-q", *device)
         assert pathlib.Path("a.exr").read_bytes() == pathlib.Path("b.exr").read_bytes(), "bytes"
         for what in ("rays", "largest_depth", "pruned", "nonfinite"):
             assert plain[what] == told[what], what
@@ -70,6 +69,7 @@ def files():
         assert c["id.X"][middle] == 1 and abs(c["depth.Z"][middle] - (math.sqrt(26) - 1)) < 0.01
         away = [c[f"normal.{x}"][middle] for x in "XYZ"]
         assert abs(away[1] - 1 / math.sqrt(26)) < 0.05 and abs(away[2] - 5 / math.sqrt(26)) < 0.05
+        assert min(c["error.X"]) > 0 and max(c["error.X"]) < math.inf, "error"
         assert c["id.X"][0] == 0 and c["depth.Z"][0] == math.inf, "background"
         assert set(c["albedo.G"]) == {0, 0.5}, "albedo"
         assert turner("compare", "plain.exr", "a.exr", "--threshold", "0"), "compare"
@@ -86,7 +86,7 @@ def refusals():
         done = turner("render", "scene.json", "-o", f"p.{ending}", "--aov", "depth", status=2)
         assert ".exr" in done.stderr, "what to do"
     for device in ([], ["--device", "reference"]):
-        done = turner("render", "scene.json", "-o", "p.exr", "--aov", NAMES, "--size",
+        done = turner("render", "scene.json", "-o", "p.exr", "--aov", "all", "--size",
                       "65536x65536", *device, status=4)
         assert "with its layers" in done.stderr and "MiB" in done.stderr
     assert [p.name for p in pathlib.Path().iterdir()] == ["scene.json"], "something was written"

@@ -11,6 +11,7 @@
 #include "../image/folder.h"
 #include "base/memory.h"
 #include "reference/reference.h"
+#include "render/contrast.h"
 #include "render/layers.h"
 #include "scene/ids.h"
 #include "scene/readers.h"
@@ -175,6 +176,110 @@ static void pictures_tell_pruned_and_nonfinite(void **state)
     assert_true(!nonfinite[0] && nonfinite[1] && nonfinite[2] && nonfinite[3]);
 }
 
+/* ---- the error that a picture tells ---- */
+
+static double squared(double x)
+{
+    return x > 0 ? x * x : 0;
+}
+
+/* The part of the unit square where nx·x + ny·y ≤ c, for nx, ny ≥ 0. */
+static double part(double nx, double ny, double c)
+{
+    if (nx < 1e-9 || ny < 1e-9)
+        return fmin(fmax(c / fmax(nx, ny), 0), 1);
+    return (squared(c) - squared(c - nx) - squared(c - ny) + squared(c - nx - ny)) / (2 * nx * ny);
+}
+
+/* The most by which the share of samples behind an edge differs from the share of the pixel, over
+ * edges of that angle: it is found where the edge passes a sample. */
+static double most_wrong(int samples, double angle)
+{
+    double nx = fabs(cos(angle)), ny = fabs(sin(angle)), most = 0;
+    for (int i = 0; i < samples; i++) {
+        double c = 0, x, y;
+        int under = 0, level = 0;
+        for (int k = -1; k < samples; k++) { /* first the edge through sample i */
+            turner_sample_position(&x, &y, k < 0 ? i : k, samples);
+            double d = nx * (cos(angle) < 0 ? 1 - x : x) + ny * y;
+            if (k < 0)
+                c = d;
+            under += k >= 0 && d < c - 1e-12;
+            level += k >= 0 && fabs(d - c) <= 1e-12;
+        }
+        double area = part(nx, ny, c);
+        most = fmax(most, fmax(fabs(area - (double)under / samples),
+                               fabs(area - (double)(under + level) / samples)));
+    }
+    return most;
+}
+
+static void an_edge_is_no_more_wrong_than_said(void **state)
+{
+    (void)state;
+    for (int samples = 1; samples <= 100; samples++) {
+        double most = 0, said = turner_edge_share(samples);
+        for (int degrees = 0; degrees < 180; degrees++)
+            most = fmax(most, most_wrong(samples, degrees * 3.14159265358979 / 180));
+        if (!(most <= said + 1e-9 && most >= said / 2))
+            fail_msg("%d samples: %g, said is %g", samples, most, said);
+    }
+}
+
+/* A ball in front of a grey background, by few samples and by many. */
+static void estimates_cover_errors(void **state)
+{
+    (void)state;
+    struct turner_scene *scene = scene_of(
+        "{\"version\": 1, \"camera\": {\"from\": [0, 1, 5], \"at\": [0, 0, 0]}, "
+        "\"background\": 0.5, \"materials\": {\"ball\": {\"k_d\": 0.7, \"k_r\": 0.2}, "
+        "\"floor\": {\"k_d\": 0.5, \"pattern\": {\"type\": \"checker\", \"colors\": [0.2, 0.9], "
+        "\"scale\": 1}}}, \"settings\": {\"size\": [64, 48]}, \"primitives\": ["
+        "{\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 1, \"material\": \"ball\"}, "
+        "{\"type\": \"plane\", \"point\": [0, -1, 0], \"normal\": [0, 1, 0], \"material\": "
+        "\"floor\"}], \"lights\": [{\"type\": \"directional\", \"direction\": [1, -2, -1], "
+        "\"irradiance\": 2}]}");
+    static float error[64 * 48];
+    struct turner_image truth, image;
+    scene->settings.spp = 144;
+    assert_ok(turner_reference_render(&truth, scene, 0, NULL, NULL, NULL));
+    for (int spp = 1; spp <= 16; spp *= 4) {
+        scene->settings.spp = spp;
+        assert_ok(turner_reference_render(&image, scene, 0, NULL, NULL, NULL));
+        turner_contrast_estimate(error, &image, spp);
+        int covered = 0;
+        double sum = 0, said = 0;
+        for (int i = 0; i < 64 * 48; i++) {
+            double off = 0;
+            for (int c = 0; c < 3; c++)
+                off = fmax(off, fabs((double)image.rgba[4 * i + c] -
+                                     (double)truth.rgba[4 * i + c]));
+            covered += (double)error[i] >= off;
+            sum += off;
+            said += (double)error[i];
+        }
+        printf("  %d samples: %.2f %% covered, mean error %.5f, estimate %.5f\n", spp,
+               covered / 30.72, sum / 3072, said / 3072);
+        /* the rest is finer than neighbours show: squares towards the horizon */
+        assert_true(covered >= 0.93 * 3072);
+        assert_true(said < 20 * sum);        /* and it is no scare */
+        turner_image_destroy(&image);
+    }
+    turner_image_destroy(&truth);
+    turner_scene_destroy(scene);
+}
+
+static void cut_weight_and_nonfinite_pixels_are_in_the_estimate(void **state)
+{
+    (void)state;
+    float pixels[] = {2, 2, 2, 0.25f, 2, 2, 2, 0, NAN, 0, 0, 0}, error[3];
+    struct turner_image image = {3, 1, pixels};
+    turner_contrast_estimate(error, &image, 1);
+    assert_near((double)error[0], 0.25 * 2 + 2e-5, 1e-6);
+    assert_near((double)error[1], 2e-5, 1e-6);
+    assert_true(isinf(error[2]));
+}
+
 /* 2³⁰ things in each of four instances are 2³²: one more than there are numbers beside 0. */
 static void ids_that_do_not_fit_are_refused(void **state)
 {
@@ -253,6 +358,9 @@ int main(void)
         cmocka_unit_test(what_a_pixel_shows),
         cmocka_unit_test(background_is_infinitely_far),
         cmocka_unit_test(pictures_tell_pruned_and_nonfinite),
+        cmocka_unit_test(an_edge_is_no_more_wrong_than_said),
+        cmocka_unit_test(estimates_cover_errors),
+        cmocka_unit_test(cut_weight_and_nonfinite_pixels_are_in_the_estimate),
         cmocka_unit_test(ids_that_do_not_fit_are_refused),
         cmocka_unit_test(too_much_memory_is_refused_in_advance),
         cmocka_unit_test_setup_teardown(files_hold_them_behind_the_picture, folder_create,

@@ -28,7 +28,8 @@ turner_aov_test(aov_water_glass_f64 test_aov ${scenes}/water_glass.json f64 plai
 
 turner_unit_test(aov_planes ${CMAKE_CURRENT_LIST_DIR}/test_aov_planes.c
                  LAYERS base image scene reference)
-target_sources(test_aov_planes PRIVATE ${PROJECT_SOURCE_DIR}/src/render/layers.c)
+target_sources(test_aov_planes PRIVATE ${PROJECT_SOURCE_DIR}/src/render/contrast.c
+                                       ${PROJECT_SOURCE_DIR}/src/render/layers.c)
 
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 foreach(what IN ITEMS files refusals nonfinite)
