@@ -117,15 +117,19 @@ static enum turner_result apply(const struct arguments *a, struct turner_scene *
 static enum turner_result read_pixel(int *x, int *y, const char *text,
                                      const struct turner_settings *settings)
 {
-    char end;
-    int count = sscanf(text, "%d,%d%c", x, y, &end);
-    if (count != 2)
+    char *comma, *end = NULL;
+    long column = strtol(text, &comma, 10), row = 0; /* too large ones become the largest */
+    if (comma != text && *comma == ',')
+        row = strtol(comma + 1, &end, 10);
+    if (!end || end == comma + 1 || *end)
         return turner_fail(TURNER_USAGE, "--pixel takes X,Y as in 320,240, not \"%s\"", text);
-    if (*x < 0 || *y < 0 || *x >= settings->width || *y >= settings->height)
+    if (column < 0 || row < 0 || column >= settings->width || row >= settings->height)
         return turner_fail(TURNER_USAGE,
-                           "--pixel %d,%d is outside the picture, which has %dx%d pixels: from "
-                           "0,0 to %d,%d", *x, *y, settings->width, settings->height,
+                           "--pixel %s is outside the picture, which has %dx%d pixels: from 0,0 "
+                           "to %d,%d", text, settings->width, settings->height,
                            settings->width - 1, settings->height - 1);
+    *x = (int)column;
+    *y = (int)row;
     return TURNER_OK;
 }
 

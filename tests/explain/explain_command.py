@@ -42,12 +42,20 @@ def turner(*arguments, status=0):
     return done
 
 
-def explain(*arguments):
-    """Text and JSON of the same."""
+def explain_text(*arguments):
     text = turner("explain", *arguments).stdout
     for line in text.splitlines():
         assert len(line) <= 100, f"{len(line)} columns: {line}"
-    return text, json.loads(turner("explain", *arguments, "--json").stdout)
+    return text
+
+
+def explain_json(*arguments):
+    return json.loads(turner("explain", *arguments, "--json").stdout)
+
+
+def explain(*arguments):
+    """Text and JSON of the same."""
+    return explain_text(*arguments), explain_json(*arguments)
 
 
 def close(a, b, relative):
@@ -92,7 +100,7 @@ def reference():
     assert all(ray["depth"] == rays[ray["parent"]]["depth"] + 1 for ray in rays[1:])
 
     # samples lie where docs/model.md says: of four, the third is at x = 5/8
-    _, sample = explain(SCENES / "bubble.json", "-p", "3,4", "--sample", 2, "-d", "reference")
+    sample = explain_json(SCENES / "bubble.json", "-p", "3,4", "--sample", 2, "-d", "reference")
     assert sample["sample"][0] == 0.625 and sample["sample"] != tree["sample"]
 
 
@@ -106,12 +114,11 @@ def device():
     assert both["device"]["nonfinite"] is None
 
     # more bits are asked for than floats have
-    text, strict = explain(SCENES / "bubble.json", "-p", "320,240", "--depth", 3, "--bits", 25)
-    assert strict["parts"]["why"] == "bits" and "They part first at #0" in text
+    text = explain_text(SCENES / "bubble.json", "-p", "320,240", "--depth", 3, "--bits", 25)
+    assert "They part first at #0" in text and "fewer than 25" in text
 
     pathlib.Path("far.json").write_text(FAR_BALL)
-    text, robust = explain("far.json", "-p", "3,2")
-    assert robust["parts"] is None, "robust spheres part"
+    assert explain_json("far.json", "-p", "3,2")["parts"] is None, "robust spheres part"
     text, textbook = explain("far.json", "-p", "3,2", "-m", "sphere=textbook")
     assert textbook["parts"] is not None, "a method that is wrong here agrees"
     parts = textbook["parts"]["pair"]
@@ -132,10 +139,10 @@ def device():
     pathlib.Path("own").mkdir()
     own = pathlib.Path("own/whitted.glsl")
     own.write_text(whitted.replace("turn < scene.max_steps", "turn < 3u"))
-    text, bound = explain(SCENES / "bubble.json", "-p", "320,240", "--shader-dir", "own")
+    bound = explain_json(SCENES / "bubble.json", "-p", "320,240", "--shader-dir", "own")
     ends = [ray["end"] for ray in bound["device"]["rays"]]
     assert ends == ["surface", "light", "background", "unfinished"]
-    assert bound["parts"] == {"pair": 3, "why": "ends"} and "bound of a loop" in text
+    assert bound["parts"] == {"pair": 3, "why": "ends"}
     own.write_text(re.sub(r"^ *RECORD\(.*\);$", "", whitted, flags=re.M))
     said = turner("explain", SCENES / "bubble.json", "-p", "320,240", "--shader-dir", "own",
                   status=BAD_INPUT).stderr
