@@ -27,10 +27,11 @@ static bool transmits(const struct turner_material *material)
     return material->k_t.x > 0 || material->k_t.y > 0 || material->k_t.z > 0;
 }
 
-/* Whether light that falls on the surface leaves it by Phong's terms; otherwise none is asked. */
-static bool reflects_light(const struct turner_material *material)
+/* Whether light that falls on the surface leaves it by Phong's terms; otherwise none is asked.
+ * `color` is the pattern's. */
+static bool reflects_light(const struct turner_material *material, turner_vector color)
 {
-    return largest(widen(material->k_d)) > 0 || largest(widen(material->k_s)) > 0;
+    return largest(mul(widen(material->k_d), color)) > 0 || largest(widen(material->k_s)) > 0;
 }
 
 /* Fills `point` for a hit of a ray that travels in `media`. */
@@ -125,7 +126,7 @@ static turner_vector local_illumination(struct turner_tracer *tracer,
         add(widen(material->k_e), mul(mul(widen(material->k_a), color), widen(scene->ambient)));
 
     turner_record_radiance(tracer, point->record, radiance);
-    if (!reflects_light(material))
+    if (!reflects_light(material, color))
         return radiance;
     for (size_t j = 0; j < scene->light_count; j++) {
         struct turner_illumination light =

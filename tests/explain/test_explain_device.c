@@ -157,7 +157,28 @@ static void truncates(void **state)
     turner_scene_destroy(scene);
 }
 
-/* A light 1e-5 from what a weak mirror shows: J/d² is beyond floats, the pixel is not. */
+/* Where its pattern is black a surface asks no light, by the reference as on a device. */
+static void black_pattern(void **state)
+{
+    (void)state;
+    struct turner_scene *scene = must_parse(
+        "{\"version\": 1, \"camera\": {\"from\": [0.5, 0.5, 5], \"at\": [0.5, 0.5, 0]},"
+        "\"settings\": {\"size\": [1, 1]}, \"materials\": {\"board\": {\"k_d\": 0.5,"
+        "\"pattern\": {\"type\": \"checker\", \"colors\": [0, 0], \"scale\": 1}}},"
+        "\"primitives\": [{\"type\": \"plane\", \"point\": [0, 0, 0], \"normal\": [0, 0, 1],"
+        "\"material\": \"board\"}],"
+        "\"lights\": [{\"type\": \"directional\", \"direction\": [0, 0, -1], \"irradiance\": 1}]}");
+    struct turner_ray_tree device, reference;
+    explain(&device, scene, 0, 0);
+    assert_ok(turner_reference_explain(&reference, scene, 0.5, 0.5));
+    assert_int_equal(reference.count, 1);
+    assert_int_equal(device.count, 1);
+    turner_ray_tree_destroy(&device);
+    turner_ray_tree_destroy(&reference);
+    turner_scene_destroy(scene);
+}
+
+/* A light 1e-4 from what a weak mirror shows: J/d² is beyond floats, the pixel is not. */
 static void nonfinite(void **state)
 {
     (void)state;
@@ -196,7 +217,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(same_tree), cmocka_unit_test(same_tree_by_ray_query),
         cmocka_unit_test(doubles),   cmocka_unit_test(truncates),
-        cmocka_unit_test(nonfinite),
+        cmocka_unit_test(nonfinite), cmocka_unit_test(black_pattern),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
