@@ -12,13 +12,12 @@
 #include "base/memory.h"
 #include "render/renderer.h"
 
-#define KERNEL_KINDS ((TURNER_RAY_QUERY | TURNER_F64 | TURNER_SPHERE_F64) + 1)
 
 struct bench {
     struct turner_chart *chart;
     struct turner_gpu gpu;
-    struct turner_kernel kernels[KERNEL_KINDS];
-    bool compiled[KERNEL_KINDS];
+    struct turner_kernel kernels[TURNER_KERNEL_KINDS];
+    bool compiled[TURNER_KERNEL_KINDS];
     struct turner_progress_bar bar;
     double done, all; /* seconds of work, as far as is known */
 };

@@ -1,12 +1,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "app/app.h"
 
 #define BAR_WIDTH 40
+#define BAR_WIDTH_BESIDE_TEXT 20
 
 static double seconds(void)
 {
@@ -22,6 +24,14 @@ void turner_progress_begin(struct turner_progress_bar *bar, bool quiet)
     bar->on = !quiet && isatty(STDERR_FILENO) && !(terminal && strcmp(terminal, "dumb") == 0);
 }
 
+/* Of the terminal; what is longer would begin a line of its own and stay there. */
+static int columns(void)
+{
+    struct winsize size;
+    bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return known ? size.ws_col : 80;
+}
+
 bool turner_progress_show(double share, void *user)
 {
     struct turner_progress_bar *bar = user;
@@ -29,16 +39,19 @@ bool turner_progress_show(double share, void *user)
     if (!bar->on || (share < 1 && now - bar->shown < 0.05))
         return true;
     bar->shown = now;
-    char cells[BAR_WIDTH + 1];
-    int full = (int)(share * BAR_WIDTH);
-    for (int i = 0; i < BAR_WIDTH; i++)
+    char cells[BAR_WIDTH + 1], line[256];
+    int width = bar->what ? BAR_WIDTH_BESIDE_TEXT : BAR_WIDTH, full = (int)(share * width);
+    for (int i = 0; i < width; i++)
         cells[i] = i < full ? '#' : '.';
-    cells[BAR_WIDTH] = 0;
+    cells[width] = 0;
     double elapsed = now - bar->start;
-    fprintf(stderr, "\r[%s] %3.0f %%  %.1f s", cells, 100 * share, elapsed);
+    int used = snprintf(line, sizeof line, "[%s] %3.0f %%  %.1f s", cells, 100 * share, elapsed);
     if (share > 0.05 && share < 1)
-        fprintf(stderr, ", %.0f s to go", elapsed * (1 - share) / share);
-    fprintf(stderr, "%s%s\033[K", bar->what ? "  " : "", bar->what ? bar->what : "");
+        used += snprintf(line + used, sizeof line - (size_t)used, ", %.0f s to go",
+                         elapsed * (1 - share) / share);
+    if (bar->what)
+        snprintf(line + used, sizeof line - (size_t)used, "  %s", bar->what);
+    fprintf(stderr, "\r%.*s\033[K", columns() - 1, line);
     fflush(stderr);
     return true;
 }

@@ -8,6 +8,7 @@ import json
 import math
 import os
 import pathlib
+import select
 import signal
 import subprocess
 import sys
@@ -113,18 +114,25 @@ def runs_kept():
 def resume():
     """Killed in the middle it keeps what was measured, and goes on from there."""
     command = [*COMMON, "--grid", "grid.json", "--runs", "31", "-q"]
-    process = subprocess.Popen([TURNER, *command], stdout=subprocess.DEVNULL)
-    end = time.monotonic() + 120
-    while sum(runs_kept().values()) < 10:
-        assert time.monotonic() < end and process.poll() is None, "nothing was kept"
-        time.sleep(0.002)
+    terminal, its_end = os.openpty()
+    process = subprocess.Popen([TURNER, *command[:-1]], stdout=subprocess.DEVNULL, stderr=its_end,
+                               env=dict(os.environ, TERM="xterm"))
+    os.close(its_end)
+    end, shown = time.monotonic() + 120, b""
+    while sum(runs_kept().values()) < 40 or b"to go" not in shown:
+        assert time.monotonic() < end and process.poll() is None, "nothing was kept or shown"
+        if select.select([terminal], [], [], 0.002)[0]:
+            shown += os.read(terminal, 65536)
     process.send_signal(signal.SIGKILL)
     process.wait()
+    os.close(terminal)
+    assert b" s to go  aa=" in shown, "the bar does not say what runs now: " + repr(shown[-500:])
+    assert all(len(line) < 80 + 4 for line in shown.split(b"\r")), "longer than a line"
     kept = {path.name: json.loads(path.read_text())
             for path in pathlib.Path("out/points").glob("*.json")}
     count = sum(len(p["seconds_trace"]) for p in kept.values())
     print(f"{count} runs of {4 * 31} kept")
-    assert 10 <= count < 4 * 31 and not pathlib.Path("out/chart.json").exists()
+    assert 40 <= count < 4 * 31 and not pathlib.Path("out/chart.json").exists()
     turner(*command)
     for name, before in kept.items():
         after = json.loads(pathlib.Path("out/points", name).read_text())
