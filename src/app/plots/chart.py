@@ -61,7 +61,7 @@ def aa_styles(points):
 def aa_name(kind):
     if "adaptive" in kind:
         threshold, most = kind.replace("adaptive:", "").split(",")
-        return f"adaptive: over {float(threshold):g}, up to {most}"
+        return f"adaptive: over {float(threshold):g}, ≤ {most}"
     return f"{kind} sample{'s' if kind != '1' else ''} a pixel"
 
 
@@ -136,23 +136,33 @@ class Labels:
                     angle = math.pi / 4
                 cx, cy = x + r * math.cos(angle), y + r * math.sin(angle)
                 left = cx - width * (0.5 - 0.5 * math.cos(angle))
+                left = min(max(left, self.frame[0] + 4), self.frame[2] - width - 4)
                 bottom = cy - height * (0.5 - 0.5 * math.sin(angle))
                 yield radius, (left - 2, bottom - 1, left + width + 2, bottom + height + 1)
 
-    def cost(self, radius, box):
+    def leader(self, x, y, box):
+        """Small boxes along the line from the point to the label."""
+        near = (min(max(x, box[0]), box[2]), min(max(y, box[1]), box[3]))
+        steps = [k / 8 for k in range(1, 8)]
+        return [(x + t * (near[0] - x) - 1, y + t * (near[1] - y) - 1,
+                 x + t * (near[0] - x) + 1, y + t * (near[1] - y) + 1) for t in steps]
+
+    def cost(self, x, y, radius, box):
         frame = self.frame
         if (box[0] < frame[0] or box[1] < frame[1] or box[2] > frame[2] or box[3] > frame[3]
                 or any(boxes_overlap(box, other) for other in self.placed)):
             return math.inf
         hidden = sum(overlap_area(box, other) for other in self.markers)
         crossed = sum(overlap_area(box, other) for other in self.line)
-        return radius + 4 * hidden / self.scale ** 2 + 1.0 * crossed / self.scale ** 2
+        through = sum(boxes_overlap(piece, other) for piece in self.leader(x, y, box)
+                      for other in self.placed)
+        return radius + (4 * hidden + crossed) / self.scale ** 2 + 25 * through
 
     def put(self, point, x, y, text, **style):
         probe = self.axes.text(0, 0, text, **style)
         extent = probe.get_window_extent(self.figure.canvas.get_renderer())
         probe.remove()
-        best, box = min(((self.cost(r, b), b) for r, b in
+        best, box = min(((self.cost(x, y, r, b), b) for r, b in
                          self.candidates(x, y, extent.width, extent.height)), key=lambda c: c[0])
         if best == math.inf:
             return
@@ -315,8 +325,8 @@ def draw(chart, metric, title, folder):
         p.shown = max(p.error, ylim[0] * 1.2)  # no error at all has no place on this axis
     front = sorted((p for p in points if p.front), key=lambda p: p.time)
 
-    figure, axes = plt.subplots(figsize=(10, 6.6), dpi=120)
-    figure.subplots_adjust(left=0.08, right=0.775, top=0.92, bottom=0.215)
+    figure, axes = plt.subplots(figsize=(10, 6.3), dpi=120)
+    figure.subplots_adjust(left=0.08, right=0.775, top=0.92, bottom=0.19)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlim(*xlim)
@@ -336,7 +346,7 @@ def draw(chart, metric, title, folder):
                    loc="left", fontsize=12, color=INK, pad=12)
     axes.set_xlabel("time to trace (less is better)")
     axes.set_ylabel(f"{title} (less is better)")
-    figure.text(0.015, 0.125, textwrap.fill(
+    figure.text(0.015, 0.095, textwrap.fill(
         caption(chart, metric, points, len(chart["points"]) - len(points)), 168),
         fontsize=7.2, color="#555555", va="top", linespacing=1.35)
     for ending, metadata in (("png", {"Software": None}), ("svg", {"Date": None})):
