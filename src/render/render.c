@@ -44,10 +44,10 @@ static void warn(const struct turner_statistics *statistics)
                     (unsigned long long)statistics->unfinished);
 }
 
-/* Of a pixel. */
-static int least_samples(const struct turner_settings *settings)
+/* Of a pixel; the reference gives each the most. */
+static int least_samples(const struct turner_settings *settings, bool reference)
 {
-    return turner_adaptive_wanted(settings) ? TURNER_CELL_SAMPLES : settings->spp;
+    return turner_adaptive_wanted(settings) && !reference ? TURNER_CELL_SAMPLES : settings->spp;
 }
 
 static enum turner_result draw_by_reference(struct turner_image *image,
@@ -136,7 +136,7 @@ enum turner_result turner_render(struct turner_image *image, const struct turner
         turner_layers_inspect(options->layers, image);
     if (turner_layers_want(options->layers, 1u << TURNER_LAYER_ERROR))
         turner_contrast_estimate(options->layers->real[TURNER_LAYER_ERROR], image,
-                                 least_samples(&scene->settings));
+                                 least_samples(&scene->settings, reference));
     warn(statistics);
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
