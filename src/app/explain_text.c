@@ -453,8 +453,10 @@ static void print_nonfinite(const struct page *page, const struct turner_ray_tre
     uint32_t ray = tree ? turner_ray_tree_nonfinite(tree, &quantity) : TURNER_NONE;
     if (ray == TURNER_NONE)
         return;
-    fprintf(page->out, "Not finite by the %s: first the %s of #%" PRIu32 " (",
-            device ? "device" : "reference", quantity,
+    const long double *radiance = tree->radiance;
+    bool finite = isfinite(radiance[0]) && isfinite(radiance[1]) && isfinite(radiance[2]);
+    fprintf(page->out, "%s by the %s: first the %s of #%" PRIu32 " (",
+            finite ? "Beyond floats" : "Not finite", device ? "device" : "reference", quantity,
             turner_rays_find(page->comparison, device, ray));
     print_kind(page, &tree->rays[ray]);
     fputs(").\n", page->out);
