@@ -388,6 +388,21 @@ TURNER_STRUCT(turner_gpu_record)
     uint light;          /* LIGHT */
 };
 
+/* A ray to measure and what became of it (probe.comp): the first of each pair is of the ray itself,
+ * the second of the one in direction `leaving` that was sent on from what it met. */
+TURNER_STRUCT(turner_gpu_probe)
+{
+    TURNER_VEC3(origin);
+    TURNER_VEC3(direction);
+    TURNER_VEC3(leaving); /* 0: no second ray */
+    float t[2];           /* infinite: nothing met */
+    float t_rest[2];      /* what rounding took from them */
+    uint id[2];
+    uint instance[2];
+    TURNER_VEC3(radiance);
+    float pruned;
+};
+
 #ifndef GL_core_profile
 #undef uint
 #endif

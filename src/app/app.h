@@ -13,6 +13,7 @@ enum turner_result turner_cmd_chart(int argc, char **argv);
 enum turner_result turner_cmd_explain(int argc, char **argv);
 enum turner_result turner_cmd_devices(int argc, char **argv);
 enum turner_result turner_cmd_params(int argc, char **argv);
+enum turner_result turner_cmd_stability(int argc, char **argv);
 enum turner_result turner_cmd_export(int argc, char **argv);
 
 /* What a subcommand says of an option getopt_long did not understand: TURNER_USAGE naming the

@@ -19,6 +19,8 @@ static const struct {
     {"chart", "chart speed against accuracy for a grid of settings", turner_cmd_chart},
     {"params", "list the methods that can be chosen, and where they come from", turner_cmd_params},
     {"export", "write a scene for POV-Ray, a second opinion", turner_cmd_export},
+    {"stability", "measure where methods fail, and that the defaults do not",
+     turner_cmd_stability},
     {"devices", "list the devices and what each can do", turner_cmd_devices},
 };
 enum { command_count = sizeof commands / sizeof *commands };

@@ -12,6 +12,8 @@ enum turner_kernel_kind {
     TURNER_F64 = 1 << 1,        /* method precision=f64; the device has float64 */
     TURNER_SPHERE_F64 = 1 << 2, /* method sphere=f64; the same */
     TURNER_RECORD = 1 << 3,     /* notes down what it does for one pixel (render/explain.h) */
+    TURNER_PROBE_HITS = 1 << 4, /* of probe.comp (render/probe.h): what rays meet */
+    TURNER_PROBE_RADIANCE = 1 << 5, /* the same: the radiance they bring */
 };
 #define TURNER_KERNEL_KINDS 8 /* combinations */
 
@@ -89,11 +91,6 @@ void turner_renderer_destroy(struct turner_renderer *renderer);
 enum turner_result turner_renderer_trace(struct turner_renderer *renderer, int depth, double cutoff,
                                          const float (*positions)[2], size_t count,
                                          float (*results)[4]);
-/* The same, and adds to `counts`, unless NULL, what each sample took (with needs.pixel_counts). */
-enum turner_result turner_renderer_trace_counted(struct turner_renderer *renderer, int depth,
-                                                 double cutoff, const float (*positions)[2],
-                                                 size_t count, float (*results)[4],
-                                                 struct turner_gpu_pixel_counts *counts);
 
 /* Traces the picture into `image` (width × height of the scene's settings); adds to the counts and
  * times of `statistics`. */

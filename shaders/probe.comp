@@ -1,0 +1,56 @@
+#version 460
+// Single rays through the code that draws pictures, for measurements: what a given ray meets and
+// what a ray sent on from there meets, or the radiance it brings.
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#ifdef TURNER_RAY_QUERY
+#extension GL_EXT_ray_query : require
+#endif
+
+#include "scene.glsl"
+#include "whitted.glsl"
+
+layout(local_size_x = TURNER_WORKGROUP * TURNER_WORKGROUP) in;
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer probe_array
+{
+    turner_gpu_probe at[];
+};
+
+void main()
+{
+    scene = scene_block(dispatch.scene).the;
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= dispatch.tile_width)
+        return;
+    probe_array probes = probe_array(dispatch.pixels);
+    turner_gpu_probe probe = probes.at[index];
+    ray_t ray = ray_t(real3(probe.origin), real3(probe.direction), INFINITY, 0.0);
+#ifdef TURNER_PROBE_RADIANCE
+    turner_gpu_counters counts;
+    for (uint kind = 0u; kind < TURNER_COUNTS; kind++)
+        counts.low[kind] = 0u;
+    counts.largest_depth = 0u;
+    vec4 radiance = whitted(ray, counts);
+    probe.radiance = radiance.rgb;
+    probe.pruned = radiance.a;
+#else
+    probe.t[0] = probe.t[1] = INFINITY;
+    for (uint turn = 0u; turn < 2u; turn++) {
+        search_t search = trace(ray, false);
+        if (!search.found)
+            break;
+        probe.t[turn] = float(search.hit.t);
+        probe.t_rest[turn] = float(search.hit.t - real(probe.t[turn]));
+        probe.id[turn] = search.hit.id;
+        probe.instance[turn] = search.hit.instance;
+        if (probe.leaving == vec3(0.0))
+            break;
+        ray = spawn_ray(surface_of(ray, search.hit), real3(probe.leaving), INFINITY);
+    }
+#endif
+    probes.at[index] = probe;
+}
