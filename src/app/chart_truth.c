@@ -2,9 +2,9 @@
  *
  * The truth of whole pixels is the mean of two halves with independent sample positions; how far a
  * half is from the mean estimates how far the mean is from what it would be with endless samples.
- * Following light to its end costs many times what the scene's own depth does and changes little,
- * so a half is made of two levels (Giles, Multilevel Monte Carlo, 2008): many samples that end
- * early, and of a sixteenth of them what they lack, traced twice at the same positions. */
+ * Following every faint ray costs many times what the scene's own cutoff does and changes little,
+ * so a half is made of two levels (Giles, Multilevel Monte Carlo, 2008): many samples with that
+ * cutoff, and of a sixteenth of them what they lack, traced twice at the same positions. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -39,16 +39,17 @@ static void add_scaled(struct turner_image *sum, const struct turner_image *pict
         sum->rgba[i] += scale * picture->rgba[i];
 }
 
-/* Adds what the early end of the samples lacks. */
+/* Adds what the samples lack that are cut off early. */
 static enum turner_result add_rest(struct turner_image *half, struct turner_chart *chart,
-                                   struct turner_settings early, struct turner_settings deep,
-                                   uint32_t which)
+                                   struct turner_settings early, uint32_t which)
 {
     struct turner_image with = {0}, without = {0};
     enum turner_result result;
     double pruned, unused;
     char what[80];
-    early.spp = deep.spp = early.spp / DEEP_SHARE > 0 ? early.spp / DEEP_SHARE : 1;
+    early.spp = early.spp / DEEP_SHARE > 0 ? early.spp / DEEP_SHARE : 1;
+    struct turner_settings deep = early;
+    deep.cutoff = DEEP_CUTOFF;
     snprintf(what, sizeof what, "reference, half %u: light to its end", which);
     TURNER_TRY_DONE(turner_chart_reference(&with, &pruned, chart, &deep, which + 2, what));
     TURNER_TRY_DONE(turner_chart_reference(&without, &unused, chart, &early, which + 2, what));
@@ -65,15 +66,14 @@ done:
 static enum turner_result make_half(struct turner_image *half, struct turner_chart *chart,
                                     uint32_t which)
 {
-    struct turner_settings deep = deep_settings(chart), early = chart->scene->settings;
+    struct turner_settings early = deep_settings(chart);
     double pruned;
     char what[80];
     early.spp = chart->reference_spp / 2;
-    early.aa_threshold = 0;
-    early.cutoff = fmin(fmax(early.cutoff, 1.0 / 512), 1.0 / 64);
+    early.cutoff = fmin(fmax(chart->scene->settings.cutoff, 1.0 / 512), 1.0 / 64);
     snprintf(what, sizeof what, "reference, half %u: %d samples a pixel", which, early.spp);
     TURNER_TRY(turner_chart_reference(half, &pruned, chart, &early, which, what));
-    return pruned > 0 ? add_rest(half, chart, early, deep, which) : TURNER_OK;
+    return pruned > 0 ? add_rest(half, chart, early, which) : TURNER_OK;
 }
 
 static enum turner_result make_pixel_truth(struct turner_chart_truths *truths,
