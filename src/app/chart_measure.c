@@ -1,6 +1,6 @@
 /* Times. A warm-up of each point, in which the driver compiles, then rounds: every point once a
- * round, so that whatever else the machine does falls on all of them alike. Each run is kept at
- * once. */
+ * round, in another order each time, so that whatever else the machine does, and what a point
+ * leaves behind for the next, falls on all of them alike. Each run is kept at once. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +11,6 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "render/renderer.h"
-
 
 struct bench {
     struct turner_chart *chart;
@@ -201,6 +200,19 @@ static void finish(struct station *stations, size_t count)
         turner_renderer_destroy(&stations[i].renderer);
 }
 
+/* Every number below `count` once, in an order that looks like chance and is that of the round
+ * (Fisher and Yates). */
+static void shuffle(size_t *order, size_t count, int round)
+{
+    uint64_t bits = turner_hash_bytes(TURNER_HASH_START, &round, sizeof round);
+    for (size_t i = 0; i < count; i++) {
+        bits = turner_hash_bytes(bits, &i, sizeof i);
+        size_t k = (size_t)(bits >> 32) % (i + 1);
+        order[i] = order[k];
+        order[k] = i;
+    }
+}
+
 /* The rounds of those that are warm. */
 static enum turner_result run_rounds(struct station *stations, size_t count, struct bench *bench)
 {
@@ -210,13 +222,18 @@ static enum turner_result run_rounds(struct station *stations, size_t count, str
         bench->all += (runs - stations[i].point->runs) * stations[i].point->seconds_first;
     turner_progress_end(&bench->bar);
     turner_progress_begin(&bench->bar, bench->chart->quiet);
-    for (int round = 0; round < runs; round++) {
-        for (size_t i = 0; i < count; i++) {
-            if (!*stations[i].point->left_out && stations[i].point->runs <= round)
-                TURNER_TRY(run(&stations[i], bench));
+    size_t *order = turner_calloc(count, sizeof *order);
+    enum turner_result result = TURNER_OK;
+    for (int round = 0; round < runs && result == TURNER_OK; round++) {
+        shuffle(order, count, round);
+        for (size_t i = 0; i < count && result == TURNER_OK; i++) {
+            struct station *station = &stations[order[i]];
+            if (!*station->point->left_out && station->point->runs <= round)
+                result = run(station, bench);
         }
     }
-    return TURNER_OK;
+    free(order);
+    return result;
 }
 
 static enum turner_result measure(struct station *stations, size_t count, struct bench *bench)

@@ -165,9 +165,9 @@ static void put_points(FILE *file, const struct turner_chart *chart)
         }
         fputc('\n', file);
     }
-    fputs("\n\\* nothing is both quicker and nearer to the truth. Of points that cannot be told apart "
-          "(quartiles overlap, errors within 1 %) only the one counts that departs least from the "
-          "scene.\n\n", file);
+    fputs("\n\\* nothing is both quicker and nearer to the truth. Of points that cannot be told "
+          "apart (quartiles overlap, errors within 1 %) only the one counts that departs least from "
+          "the scene.\n\n", file);
 }
 
 static void put_page(FILE *file, const struct turner_chart *chart)

@@ -1,4 +1,4 @@
-"""command_chart.py whole | resume | cache | flip | samples | faults: turner chart through the command.
+"""turner chart: command_chart.py whole | resume | cache | flip | samples | faults.
 
 Environment: TURNER, the command. Exit status 77 without a Vulkan device.
 """

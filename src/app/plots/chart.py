@@ -90,7 +90,8 @@ def limits_of(chart, metric, points):
     errors = [p.error for p in points if p.error > 0] or [1e-6]
     low, high = min(errors), max(errors)
     own = chart["reference"]["error"][metric]
-    for line in (own, 1 / 255 if metric in ("rmse", "largest") else None, float_limit(chart, metric)):
+    step = 1 / 255 if metric in ("rmse", "largest") else None
+    for line in (own, step, float_limit(chart, metric)):
         if line and low / 20 < line < low:  # near enough to be worth the room
             low = line
         if line and high < line < high * 3:
@@ -158,13 +159,13 @@ class Labels:
                       for other in self.placed)
         return radius + (4 * hidden + crossed) / self.scale ** 2 + 25 * through
 
-    def put(self, point, x, y, text, **style):
+    def put(self, point, x, y, text, most=math.inf, **style):
         probe = self.axes.text(0, 0, text, **style)
         extent = probe.get_window_extent(self.figure.canvas.get_renderer())
         probe.remove()
         best, box = min(((self.cost(x, y, r, b), b) for r, b in
                          self.candidates(x, y, extent.width, extent.height)), key=lambda c: c[0])
-        if best == math.inf:
+        if best == math.inf or best > most:
             return
         self.placed.append(box)
         to_points = 72 / self.figure.dpi
@@ -200,6 +201,9 @@ def put_labels(figure, axes, points, front):
     for a, b in zip(front, front[1:]):
         (xa, ya), (xb, yb) = places[id(a)], places[id(b)]
         line += [(xa, ya - 1, xb, ya + 1), (xb - 1, yb, xb + 1, ya)]
+    if front:
+        x, y = places[id(front[-1])]
+        line.append((x, y - 1, axes.get_window_extent().extents[2], y + 1))
     labels = Labels(figure, axes, markers, line)
     for p in front:
         labels.put(p, *places[id(p)], p.label, color=INK, fontsize=8.5,
@@ -213,7 +217,7 @@ def put_labels(figure, axes, points, front):
         if len(named) == len(front) + MORE_LABELS or crowded and not p.is_scene:
             continue
         named.append(p)
-        labels.put(p, *places[id(p)], p.label, color=QUIET, fontsize=8,
+        labels.put(p, *places[id(p)], p.label, most=70, color=QUIET, fontsize=8,
                    fontweight="bold" if p.is_scene else "normal")
 
 
@@ -306,7 +310,7 @@ def caption(chart, metric, points, dropped):
     if own and any(p.error <= own for p in points):
         text += " Hollow: below the reference's own error."
     if dropped:
-        text += f" {dropped} point{'s are' if dropped > 1 else ' is'} not drawn (chart.md says why)."
+        text += f" Not drawn: {dropped} point{'s' if dropped > 1 else ''} (chart.md says why)."
     return text
 
 
