@@ -217,7 +217,8 @@ def put_labels(figure, axes, points, front):
         if len(named) == len(front) + MORE_LABELS or crowded and not p.is_scene:
             continue
         named.append(p)
-        labels.put(p, *places[id(p)], p.label, most=70, color=QUIET, fontsize=8,
+        labels.put(p, *places[id(p)], p.label, most=math.inf if p.is_scene else 70,
+                   color=QUIET, fontsize=8,
                    fontweight="bold" if p.is_scene else "normal")
 
 
