@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "render/cells.h"
 #include "render/layers.h"
+#include "render/tally.h"
 
 #define EDGE_MAX 128              /* of a tile, in pixels */
 #define TILE_SAMPLES (1 << 22)    /* that a tile may come to take, where pixels take the most */
@@ -95,9 +96,10 @@ static enum turner_result trace_new(struct picture *picture)
     const struct turner_settings *settings = &picture->renderer->settings;
     struct turner_lattice *lattice = &picture->lattice;
     size_t first = lattice->traced;
-    TURNER_TRY(turner_renderer_trace(picture->renderer, settings->depth, settings->cutoff,
-                                     lattice->positions + first, lattice->count - first,
-                                     lattice->values + first));
+    TURNER_TRY(turner_renderer_trace_counted(
+        picture->renderer, settings->depth, settings->cutoff, lattice->positions + first,
+        lattice->count - first, lattice->values + first,
+        lattice->counted ? lattice->counts + first : NULL));
     lattice->traced = lattice->count;
     return TURNER_OK;
 }
@@ -112,6 +114,16 @@ static void finish(struct picture *picture, const struct turner_patch *patch)
         statistics->samples_max = patch->samples;
     if (turner_layers_want(picture->layers, 1u << TURNER_LAYER_SAMPLES))
         picture->layers->whole[TURNER_LAYER_SAMPLES][at] = (uint32_t)patch->samples;
+}
+
+static void finish_counts(const struct picture *picture, const struct turner_patch *patch)
+{
+    size_t at = (size_t)patch->y * (size_t)picture->image->width + (size_t)patch->x;
+    struct turner_gpu_pixel_counts took = turner_tally_patch(&picture->cells, patch);
+    if (turner_layers_want(picture->layers, 1u << TURNER_LAYER_RAYS))
+        picture->layers->whole[TURNER_LAYER_RAYS][at] = took.rays;
+    if (turner_layers_want(picture->layers, 1u << TURNER_LAYER_RECURSION))
+        picture->layers->whole[TURNER_LAYER_RECURSION][at] = took.recursion;
 }
 
 /* Neighbours in the list are neighbours in the picture: along a Morton curve of 8×8 pixels. */
@@ -144,6 +156,8 @@ static enum turner_result draw_tile(struct picture *picture, struct tile tile)
                 divided = divided || cells->cells[patch->first + k].split;
             if (!divided)
                 finish(picture, patch);
+            if (!divided && picture->lattice.counted)
+                finish_counts(picture, patch);
         }
         turner_cells_divide(cells);
     }
@@ -210,6 +224,7 @@ enum turner_result turner_adaptive_draw(struct turner_renderer *renderer,
     statistics->samples_max = 0;
     picture.cells.lattice = &picture.lattice;
     turner_lattice_create(&picture.lattice, picture.level_max + 1);
+    picture.lattice.counted = renderer->needs.pixel_counts;
     double start = turner_seconds();
     enum turner_result result = draw(&picture, options);
     statistics->seconds_trace += turner_seconds() - start;

@@ -5,6 +5,7 @@
 #include "render/adaptive.h"
 #include "render/layers.h"
 #include "render/renderer.h"
+#include "render/tally.h"
 
 /* What is submitted at once should take about this long: short for a watchdog and for Ctrl-C, long
  * beside the cost of a submission. */
@@ -60,7 +61,7 @@ static enum turner_result trace_sample(struct turner_renderer *renderer, struct 
 
 static enum turner_result trace_list(struct turner_renderer *renderer, int depth, double cutoff,
                                      const float (*positions)[2], size_t count,
-                                     float (*results)[4])
+                                     float (*results)[4], struct turner_gpu_pixel_counts *counts)
 {
     const uint32_t group = TURNER_WORKGROUP * TURNER_WORKGROUP;
     struct turner_gpu_dispatch push = dispatch_of(renderer);
@@ -71,6 +72,9 @@ static enum turner_result trace_list(struct turner_renderer *renderer, int depth
     memcpy(renderer->positions.mapped, positions, count * sizeof *positions);
     TURNER_TRY(submit(renderer, &push, (push.count + group - 1) / group, 1));
     memcpy(results, renderer->pixels.mapped, count * sizeof *results);
+    const struct turner_gpu_pixel_counts *took = renderer->pixel_counts.mapped;
+    for (size_t i = 0; counts && i < count; i++)
+        turner_tally_add(&counts[i], took[i]);
     return TURNER_OK;
 }
 
@@ -78,13 +82,22 @@ enum turner_result turner_renderer_trace(struct turner_renderer *renderer, int d
                                          const float (*positions)[2], size_t count,
                                          float (*results)[4])
 {
+    return turner_renderer_trace_counted(renderer, depth, cutoff, positions, count, results, NULL);
+}
+
+enum turner_result turner_renderer_trace_counted(struct turner_renderer *renderer, int depth,
+                                                 double cutoff, const float (*positions)[2],
+                                                 size_t count, float (*results)[4],
+                                                 struct turner_gpu_pixel_counts *counts)
+{
     for (size_t done = 0; done < count;) {
         size_t size = renderer->list ? renderer->list : LIST_FIRST;
         bool whole = count - done >= size;
         if (!whole)
             size = count - done;
         double start = turner_seconds();
-        TURNER_TRY(trace_list(renderer, depth, cutoff, positions + done, size, results + done));
+        TURNER_TRY(trace_list(renderer, depth, cutoff, positions + done, size, results + done,
+                              counts ? counts + done : NULL));
         double seconds = turner_seconds() - start;
         done += size;
         if (seconds > SECONDS_LONG && size > LIST_MIN)

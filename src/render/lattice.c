@@ -18,6 +18,7 @@ void turner_lattice_destroy(struct turner_lattice *lattice)
     free(lattice->indices);
     free(lattice->positions);
     free(lattice->values);
+    free(lattice->counts);
     *lattice = (struct turner_lattice){.shift = lattice->shift};
 }
 
@@ -50,6 +51,9 @@ static void grow(struct turner_lattice *lattice)
     lattice->positions =
         turner_realloc(lattice->positions, lattice->capacity, sizeof *lattice->positions);
     lattice->values = turner_realloc(lattice->values, lattice->capacity, sizeof *lattice->values);
+    if (lattice->counted)
+        lattice->counts =
+            turner_realloc(lattice->counts, lattice->capacity, sizeof *lattice->counts);
     for (size_t i = 0; i < old_slots; i++) {
         if (!old_keys[i])
             continue;
@@ -73,6 +77,8 @@ uint32_t turner_lattice_at(struct turner_lattice *lattice, uint32_t x, uint32_t 
         lattice->indices[slot] = (uint32_t)lattice->count;
         lattice->positions[lattice->count][0] = (float)x * unit;
         lattice->positions[lattice->count][1] = (float)y * unit;
+        if (lattice->counted)
+            lattice->counts[lattice->count] = (struct turner_gpu_pixel_counts){0};
         lattice->count++;
     }
     return lattice->indices[slot];

@@ -11,10 +11,12 @@ struct turner_lattice {
     size_t slots;          /* a power of two, or 0 */
     float (*positions)[2]; /* in pixels, `count` */
     float (*values)[4];    /* radiance and pruned weight of the first `traced` */
+    struct turner_gpu_pixel_counts *counts; /* what each took; NULL unless `counted` */
+    bool counted;
     size_t count, traced, capacity;
 };
 
-/* Takes no memory yet; release with turner_lattice_destroy. */
+/* Takes no memory yet; `counted` may be set then; release with turner_lattice_destroy. */
 void turner_lattice_create(struct turner_lattice *lattice, int shift);
 void turner_lattice_destroy(struct turner_lattice *lattice);
 /* Forgets all samples. */

@@ -125,10 +125,6 @@ enum turner_result turner_render(struct turner_image *image, const struct turner
 
     memset(image, 0, sizeof *image);
     bool reference = options->device && strcmp(options->device, "reference") == 0;
-    if (!reference && turner_adaptive_wanted(&scene->settings) &&
-        turner_layers_want(options->layers, TURNER_LAYERS_OF_RAYS))
-        return turner_fail(TURNER_USAGE, "the layers rays and recursion need a fixed number of "
-                                         "samples: use --spp, or ask for samples");
     if (options->layers)
         TURNER_TRY(turner_layers_create(options->layers, scene));
     if (!reference) /* that makes its own */

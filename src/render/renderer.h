@@ -91,6 +91,11 @@ void turner_renderer_destroy(struct turner_renderer *renderer);
 enum turner_result turner_renderer_trace(struct turner_renderer *renderer, int depth, double cutoff,
                                          const float (*positions)[2], size_t count,
                                          float (*results)[4]);
+/* The same, and adds to `counts`, unless NULL, what each sample took (with needs.pixel_counts). */
+enum turner_result turner_renderer_trace_counted(struct turner_renderer *renderer, int depth,
+                                                 double cutoff, const float (*positions)[2],
+                                                 size_t count, float (*results)[4],
+                                                 struct turner_gpu_pixel_counts *counts);
 
 /* Traces the picture into `image` (width × height of the scene's settings); adds to the counts and
  * times of `statistics`. */

@@ -1,4 +1,4 @@
-"""command_aov.py files | refusals | nonfinite: `turner render --aov`.
+"""command_aov.py files | adaptive | refusals | nonfinite: `turner render --aov`.
 
 Environment: TURNER, the command; TOOLS, the folder of exr.py. Exit status 77 without a device.
 """
@@ -77,6 +77,31 @@ def files():
     assert set(exr.read("one.exr").channels) == {"R", "G", "B", "depth.Z", "id.X"}
 
 
+def adaptive():
+    """A ray a sample where there is neither light nor mirror; the same bytes whatever the tile."""
+    scene = json.loads(json.dumps(SCENE))
+    scene["lights"] = []
+    scene["materials"]["glass"] = {"k_e": 1}
+    pathlib.Path("dark.json").write_text(json.dumps(scene))
+    pathlib.Path("scene.json").write_text(json.dumps(SCENE))
+    method = ["--method", "aa=adaptive:0.05,61", "--aov", "all", "-q"]
+    turner("render", "dark.json", "-o", "dark.exr", *method)
+    c = exr.read("dark.exr").channels
+    shared = 0
+    for rays, samples in zip(c["rays.X"], c["samples.X"]):
+        # 5, then 13; squares divided further may share samples, which `samples` counts twice
+        assert rays == samples if samples <= 13 else 13 < rays <= samples, (rays, samples)
+        shared += rays < samples
+    assert min(c["samples.X"]) == 5 and shared > 40 and set(c["recursion.X"]) == {0}
+
+    done = turner("render", "scene.json", "-o", "a.exr", *method, "--stats", "-")
+    turner("render", "scene.json", "-o", "b.exr", *method, "--tile", "7")
+    assert pathlib.Path("a.exr").read_bytes() == pathlib.Path("b.exr").read_bytes(), "bytes"
+    told, c = json.loads(done.stdout), exr.read("a.exr").channels
+    assert max(c["recursion.X"]) == told["largest_depth"] == 5, "recursion"
+    assert all(r >= s or s > 13 for r, s in zip(c["rays.X"], c["samples.X"])), "rays"
+
+
 def refusals():
     """Wrong names and formats: status 2, before any work, and nothing is left behind."""
     pathlib.Path("scene.json").write_text(json.dumps(SCENE))
@@ -117,7 +142,8 @@ def main():
         sys.exit(77)
     with tempfile.TemporaryDirectory(prefix="turner-layers-") as folder:
         os.chdir(folder)
-        {"files": files, "refusals": refusals, "nonfinite": nonfinite}[sys.argv[1]]()
+        {"files": files, "adaptive": adaptive, "refusals": refusals,
+         "nonfinite": nonfinite}[sys.argv[1]]()
         os.chdir("/")
 
 

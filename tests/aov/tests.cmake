@@ -32,7 +32,7 @@ target_sources(test_aov_planes PRIVATE ${PROJECT_SOURCE_DIR}/src/render/contrast
                                        ${PROJECT_SOURCE_DIR}/src/render/layers.c)
 
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
-foreach(what IN ITEMS files refusals nonfinite)
+foreach(what IN ITEMS files adaptive refusals nonfinite)
     turner_aov_test(aov_${what} Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/command_aov.py ${what})
     set_property(TEST aov_${what} APPEND PROPERTY ENVIRONMENT
         "TURNER=$<TARGET_FILE:turner>" "TOOLS=${PROJECT_SOURCE_DIR}/tools")
