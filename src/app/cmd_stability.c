@@ -87,8 +87,9 @@ static enum turner_result choose_rows(struct turner_stability_row **rows, size_t
                                       char **names)
 {
     const struct turner_sweep *const lists[] = {
-        turner_sweeps_sphere, turner_sweeps_leave, turner_sweeps_triangle, turner_sweeps_fresnel,
-        turner_sweeps_phong,  turner_sweeps_place, turner_sweeps_recursion, turner_sweeps_aa};
+        turner_sweeps_sphere,    turner_sweeps_ground,  turner_sweeps_leave,
+        turner_sweeps_triangle,  turner_sweeps_fresnel, turner_sweeps_phong,
+        turner_sweeps_place,     turner_sweeps_recursion, turner_sweeps_aa};
     size_t capacity = 0;
     *rows = NULL;
     *count = 0;

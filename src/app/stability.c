@@ -115,6 +115,37 @@ done:
     return result;
 }
 
+enum turner_result turner_stability_count_hits(struct turner_stability_hits *hits,
+                                               struct turner_stability *s,
+                                               const struct turner_scene *scene,
+                                               struct turner_gpu_probe *probes, size_t count,
+                                               bool *possible)
+{
+    struct turner_world world;
+    TURNER_TRY(turner_stability_probe(probes, count, s, scene, TURNER_PROBE_HITS, possible));
+    if (!*possible)
+        return TURNER_OK;
+    TURNER_TRY(turner_world_create(&world, scene));
+    size_t wrong = 0, both = 0;
+    double sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        struct turner_ray ray = turner_stage_ray(&probes[i]);
+        struct turner_hit hit;
+        bool truth = turner_world_intersect(&hit, &world, &ray, (turner_real)INFINITY);
+        double t = turner_stage_t(&probes[i], 0);
+        if (truth != !isinf(t)) {
+            wrong++;
+        } else if (truth) {
+            sum += fabs(t - (double)hit.t);
+            both++;
+        }
+    }
+    turner_world_destroy(&world);
+    *hits = (struct turner_stability_hits){(double)wrong / (double)count,
+                                           both ? sum / (double)both : 0};
+    return TURNER_OK;
+}
+
 /* ---- pictures ---- */
 
 /* Share of the pixels with a channel that differs by more than `tolerance`, of itself where it is

@@ -67,9 +67,10 @@ struct turner_sweep {
 };
 
 /* One list a subject; each ends with a name of NULL. */
-extern const struct turner_sweep *const turner_sweeps_sphere, *const turner_sweeps_leave,
-    *const turner_sweeps_triangle, *const turner_sweeps_fresnel, *const turner_sweeps_phong,
-    *const turner_sweeps_place, *const turner_sweeps_recursion, *const turner_sweeps_aa;
+extern const struct turner_sweep *const turner_sweeps_sphere, *const turner_sweeps_ground,
+    *const turner_sweeps_leave, *const turner_sweeps_triangle, *const turner_sweeps_fresnel,
+    *const turner_sweeps_phong, *const turner_sweeps_place, *const turner_sweeps_recursion,
+    *const turner_sweeps_aa;
 
 /* ---- what a sweep measures with ---- */
 struct turner_stability {
@@ -97,6 +98,17 @@ enum turner_result turner_stability_probe(struct turner_gpu_probe *probes, size_
                                           struct turner_stability *s,
                                           const struct turner_scene *scene,
                                           enum turner_kernel_kind kind, bool *possible);
+
+/* What the rays meet, against the reference. */
+struct turner_stability_hits {
+    double wrong;  /* share of rays with a hit for a miss or a miss for a hit */
+    double mean_t; /* mean |t − truth| of the others that hit */
+};
+enum turner_result turner_stability_count_hits(struct turner_stability_hits *hits,
+                                               struct turner_stability *s,
+                                               const struct turner_scene *scene,
+                                               struct turner_gpu_probe *probes, size_t count,
+                                               bool *possible);
 
 /* Draws the scene on the device. `statistics` may be NULL. */
 enum turner_result turner_stability_draw(struct turner_image *image, struct turner_stability *s,

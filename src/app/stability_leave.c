@@ -159,6 +159,27 @@ done:
     return result;
 }
 
+/* A lamp with a black core in a clear shell that is `gap` above it: all pixels on it are 1. */
+static struct turner_scene *shell_scene(double gap, int variant)
+{
+    (void)variant;
+    struct turner_scene *scene = turner_stage_create(
+        96, turner_vec3_of(1, 2, 4), TURNER_GREY(0), 0.5);
+    scene->settings.depth = 3;
+    uint32_t clear = turner_stage_glass(scene, 1, 0, TURNER_GREY(0), TURNER_FRESNEL_NONE);
+    scene->materials[clear].k_r = TURNER_GREY(0);
+    turner_stage_sphere(scene, TURNER_GREY(0), 1, turner_stage_lamp(scene, 1));
+    turner_stage_sphere(scene, TURNER_GREY(0), 1 + gap, clear);
+    turner_stage_sphere(scene, TURNER_GREY(0), 0.9, turner_stage_lamp(scene, 0));
+    return scene;
+}
+
+static double bound_picture(double gap, double limit)
+{
+    (void)gap, (void)limit;
+    return 0.01;
+}
+
 static double bound_none(double value, double limit)
 {
     (void)value, (void)limit;
@@ -170,6 +191,10 @@ static double bound_shell(double gap, double limit)
     (void)gap, (void)limit;
     return 1e-3; /* rays that all but touch the silhouette are anybody's */
 }
+
+static const char shell_note[] =
+    "closer than a few float spacings the two surfaces are one: draw a coating as a material, or "
+    "use --method precision=f64";
 
 #define SECTION "2. Rays that leave a surface"
 
@@ -228,9 +253,7 @@ static const struct turner_sweep sweeps[] = {
      .parameter = "gap / radius",
      .unit_of_error = "share of rays that miss it",
      .values = {1e-6, 4e-6, 4e-5, 4e-4, 4e-3, 4e-2, NAN},
-     .methods = {{"error_bound (default)", NULL, 0, TURNER_HOLDS_FROM(4e-5),
-                  "closer than a few float spacings the two surfaces are one: draw a coating as a "
-                  "material, or use --method precision=f64"},
+     .methods = {{"error_bound (default)", NULL, 0, TURNER_HOLDS_FROM(4e-5), shell_note},
                  {"none", "offset=none", 0, TURNER_SHOWN, NULL},
                  {"tmin:1e-4", "offset=tmin:1e-4", 0, TURNER_FAILS(4e-5), NULL},
                  {"tmin:1e-3", "offset=tmin:1e-3", 0, TURNER_FAILS(4e-5), NULL},
@@ -240,6 +263,23 @@ static const struct turner_sweep sweeps[] = {
      .bound = bound_shell,
      .bound_words = "one in a thousand",
      .published = "A shell of 4e-5 must be seen."},
+    {.name = "leave-shell-picture",
+     .section = SECTION,
+     .question = "A lamp in a clear shell: how many pixels are wrong?",
+     .parameter = "gap / radius",
+     .unit_of_error = "share of pixels wrong",
+     .values = {1e-6, 4e-6, 4e-5, 4e-4, 4e-3, 4e-2, NAN},
+     .methods = {{"error_bound (default)", NULL, 0, TURNER_HOLDS_FROM(4e-5), shell_note},
+                 {"tmin:1e-4", "offset=tmin:1e-4", 0, TURNER_FAILS(4e-5), NULL},
+                 {"tmin:1e-3", "offset=tmin:1e-3", 0, TURNER_FAILS(4e-4), NULL},
+                 {"ulp", "offset=ulp", 0, TURNER_HOLDS_FROM(4e-4), NULL},
+                 {"precision=f64", "precision=f64", 0, TURNER_HOLDS, NULL},
+                 {TURNER_POVRAY, NULL, 0, TURNER_SHOWN, NULL}},
+     .measure = turner_stability_picture,
+     .scene = shell_scene,
+     .tolerance = 0.01,
+     .bound = bound_picture,
+     .bound_words = "1 % of the pixels"},
     {0}};
 
 const struct turner_sweep *const turner_sweeps_leave = sweeps;
