@@ -43,8 +43,14 @@ void main()
         search_t search = trace(ray, false);
         if (!search.found)
             break;
-        probe.t[turn] = float(search.hit.t);
-        probe.t_rest[turn] = float(search.hit.t - real(probe.t[turn]));
+#ifdef TURNER_F64 // float(t) and the rest: Mesa 25 takes the difference for 0
+        real head = packDouble2x32(uvec2(0u, unpackDouble2x32(search.hit.t).y));
+        probe.t[turn] = float(head);
+        probe.t_rest[turn] = float(search.hit.t - head);
+#else
+        probe.t[turn] = search.hit.t;
+        probe.t_rest[turn] = 0.0;
+#endif
         probe.id[turn] = search.hit.id;
         probe.instance[turn] = search.hit.instance;
         if (probe.leaving == vec3(0.0))

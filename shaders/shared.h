@@ -396,7 +396,7 @@ TURNER_STRUCT(turner_gpu_probe)
     TURNER_VEC3(direction);
     TURNER_VEC3(leaving); /* 0: no second ray */
     float t[2];           /* infinite: nothing met */
-    float t_rest[2];      /* what rounding took from them */
+    float t_rest[2];      /* to be added to them: more digits, with doubles */
     uint id[2];
     uint instance[2];
     TURNER_VEC3(radiance);
