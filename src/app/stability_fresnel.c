@@ -208,7 +208,8 @@ static const struct turner_sweep sweeps[] = {
                   "1.6, .044 at 2, .075 at 2.417, .125 at 3."},
     {.name = "schlick-inside",
      .section = SECTION,
-     .question = "The same from index n into air, below the critical angle",
+     .question = "Schlick's formula from index n into air: how far off, below the critical "
+                 "angle?",
      .parameter = "index",
      .unit_of_error = "largest error of R",
      .values = {1.05, 1.1, 1.2, 1.333, 1.5, 1.6, 2, 2.417, 3, NAN},

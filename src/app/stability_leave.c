@@ -218,7 +218,7 @@ static const struct turner_sweep sweeps[] = {
                   "tmin 1e-3 0, .7 %, 40 %; ulp 0."},
     {.name = "leave-away",
      .section = SECTION,
-     .question = "The same for a sphere of radius 1 far from the origin",
+     .question = "How many rays that leave a sphere far from the origin meet it again?",
      .parameter = "distance of the centre along each axis, radii",
      .unit_of_error = "share of rays wrong",
      .values = {1, 10, 100, 1e3, 1e4, 1e5, NAN},
@@ -235,8 +235,8 @@ static const struct turner_sweep sweeps[] = {
                   "ulp 0."},
     {.name = "leave-instance",
      .section = SECTION,
-     .question = "The same for an instance, small and off the origin in its group's coordinates, "
-                 "scaled up and moved to the origin",
+     .question = "How many rays that leave an instance, small and off the origin in its own "
+                 "coordinates, meet it again?",
      .parameter = "scale of the instance",
      .unit_of_error = "share of rays wrong",
      .values = {0.01, 1, 100, 1e4, NAN},
