@@ -62,7 +62,12 @@ def stats():
         assert s["traversal"] == "reference" if reference else s["traversal"] in (
             "bvh", "ray_query"), "traversal"
         assert s["precision"] == ("extended" if reference else "f32"), "precision"
-        assert s["settings"] == {
+        settings = s["settings"]
+        assert settings.pop("methods") == {
+            "sphere": "robust", "triangle": "watertight", "offset": "error_bound",
+            "fresnel_cosine": "stable", "fresnel": "material", "schlick_side": "transmitted",
+            "precision": "f32", "aa": "2", "traversal": "auto"}, "methods"
+        assert settings == {
             "size": [40, 30], "depth": 5, "cutoff": 0.001953125, "spp": 2,
             "shading": "energy_conserving", "shadows": "tinted", "exposure": 0, "transfer": "srgb",
             "spd_rays": False, "spd_grid": False}, "settings"
