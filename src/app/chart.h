@@ -37,8 +37,7 @@ struct turner_chart_point {
     struct turner_settings settings;
     char label[256]; /* "aa=4 depth=2": the samples, and what differs from the scene */
     char name[20];   /* of its files */
-    int departures;  /* methods in which it leaves the scene, but for aa, depth and cutoff, which
-                        have no right value */
+    int departures;  /* methods in which it leaves the scene */
     /* measured */
     double seconds[TURNER_CHART_MAX_RUNS]; /* of tracing, one a run */
     int runs;

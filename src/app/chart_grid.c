@@ -30,17 +30,6 @@ static void shorten(char text[TURNER_METHOD_TEXT])
         snprintf(text, TURNER_METHOD_TEXT, "%.4g", value);
 }
 
-/* Samples, depth and cutoff are a matter of how much; for the others there is a right answer. */
-static bool is_amount(const char *name)
-{
-    static const char *const amounts[] = {"aa", "depth", "cutoff", "error"};
-    for (size_t i = 0; i < sizeof amounts / sizeof *amounts; i++) {
-        if (strcmp(name, amounts[i]) == 0)
-            return true;
-    }
-    return false;
-}
-
 static void add_word(struct turner_chart_point *point, const char *name,
                      char text[TURNER_METHOD_TEXT])
 {
@@ -60,10 +49,10 @@ static void make_label(struct turner_chart_point *point, const struct turner_set
         const char *name = turner_methods_list[i].name;
         turner_method_text(text, &point->settings, name);
         turner_method_text(base_text, base, name);
-        if (strcmp(name, "aa") == 0 || strcmp(text, base_text) == 0)
-            continue;
-        point->departures += !is_amount(name);
-        add_word(point, name, text);
+        bool departs = strcmp(text, base_text) != 0;
+        point->departures += departs;
+        if (departs && strcmp(name, "aa") != 0)
+            add_word(point, name, text);
     }
 }
 
