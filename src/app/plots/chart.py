@@ -188,7 +188,7 @@ def distance_to_front(point, front):
                            max(0, math.log10(point.shown / p.shown))) for p in front), default=0)
 
 
-def put_labels(figure, axes, points, front):
+def put_labels(figure, axes, points, front, texts):
     figure.canvas.draw()
     to_pixels = axes.transData.transform
     radius = 5 * figure.dpi / 100
@@ -205,6 +205,7 @@ def put_labels(figure, axes, points, front):
         x, y = places[id(front[-1])]
         line.append((x, y - 1, axes.get_window_extent().extents[2], y + 1))
     labels = Labels(figure, axes, markers, line)
+    labels.placed += [tuple(text.get_window_extent().extents) for text in texts]
     for p in front:
         labels.put(p, *places[id(p)], p.label, color=INK, fontsize=8.5,
                    fontweight="bold" if p.is_scene else "normal")
@@ -224,21 +225,26 @@ def put_labels(figure, axes, points, front):
 
 # ---- the picture ----
 
-def draw_bounds(axes, chart, metric, xlim, ylim):
+def draw_bounds(axes, chart, metric, ylim):
+    """Returns the texts, which labels have to leave free."""
+    texts = []
+
     def line(value, text, color, style, above=True, left=False):
         if not value:
             return
         if value < ylim[0]:
-            axes.annotate(f"{text} {value:.1g} ↓", (0.995, 0.012), xycoords="axes fraction",
-                          ha="right", va="bottom", fontsize=7.5, color=color)
+            texts.append(axes.annotate(f"{text} {value:.1g} ↓", (0.995, 0.012),
+                                       xycoords="axes fraction", ha="right", va="bottom",
+                                       fontsize=7.5, color=color))
             return
         if value > ylim[1]:
             return
         axes.axhline(value, color=color, linewidth=1, linestyle=style, zorder=1)
-        axes.annotate(text.rstrip(":"), (0.005 if left else 0.995, value),
-                      xycoords=("axes fraction", "data"), ha="left" if left else "right",
-                      va="bottom" if above else "top", xytext=(0, 2 if above else -2),
-                      textcoords="offset points", fontsize=7.5, color=color)
+        texts.append(axes.annotate(text.rstrip(":"), (0.005 if left else 0.995, value),
+                                   xycoords=("axes fraction", "data"),
+                                   ha="left" if left else "right", va="bottom" if above else "top",
+                                   xytext=(0, 2 if above else -2), textcoords="offset points",
+                                   fontsize=7.5, color=color))
 
     own = chart["reference"]["error"][metric]
     if own:
@@ -247,6 +253,7 @@ def draw_bounds(axes, chart, metric, xlim, ylim):
     if metric in ("rmse", "largest"):
         line(1 / 255, "1/255, a step of 8 bits", QUIET, ":", left=True)
     line(float_limit(chart, metric), "rounding to 32 bits:", "#8e6bbf", "-.")
+    return texts
 
 
 def draw_points(axes, points, styles, own):
@@ -288,8 +295,8 @@ def legend(axes, points, styles):
 
 AGAINST = {
     "pixel": "the mean over each pixel's square",
-    "samples": "the same samples without cutoff or approximation",
-    "arithmetic": "the same samples, depth and cutoff in extended precision",
+    "samples": "the same samples, light followed to its end",
+    "arithmetic": "the same samples, depth, cutoff and Fresnel formula",
 }
 
 
@@ -340,14 +347,16 @@ def draw(chart, metric, title, folder):
     set_log_axis(axes.yaxis, *ylim, error_text)
     axes.grid(True, which="major", color="#e4e4e4", linewidth=0.8, zorder=0)
     axes.set_axisbelow(True)
-    draw_bounds(axes, chart, metric, xlim, ylim)
+    texts = draw_bounds(axes, chart, metric, ylim)
     draw_front(axes, front, xlim)
     draw_points(axes, points, aa_styles(points), chart["reference"]["error"][metric])
     legend(axes, points, aa_styles(points))
-    put_labels(figure, axes, points, front)
+    put_labels(figure, axes, points, front, texts)
 
     name = os.path.splitext(os.path.basename(chart["scene"]))[0] or "scene"
-    axes.set_title(f"{name}, {chart['size'][0]}×{chart['size'][1]}: {title} against time",
+    counted = {"pixel": "", "samples": " but for anti-aliasing", "arithmetic": " of rounding alone"}
+    axes.set_title(f"{name}, {chart['size'][0]}×{chart['size'][1]}: {title}"
+                   f"{counted[chart['reference']['against']]} against time",
                    loc="left", fontsize=12, color=INK, pad=12)
     axes.set_xlabel("time to trace (less is better)")
     axes.set_ylabel(f"{title} (less is better)")
