@@ -111,6 +111,9 @@ struct turner_statistics {
     double pruned_mean, pruned_max;
     double samples_mean;      /* of a pixel */
     int samples_max;
+    double error_mean, error_max; /* estimated, of a pixel, where the settings ask for one */
+    uint64_t error_missed;    /* pixels whose estimate is more than asked for */
+    double cutoff_least;      /* lowest cutoff in use */
     uint64_t nonfinite;       /* pixels that are not finite, and the first one's place */
     int nonfinite_x, nonfinite_y;
     double seconds_parse, seconds_device, seconds_build, seconds_compile, seconds_upload,

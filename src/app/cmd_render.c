@@ -22,6 +22,8 @@ static void print_help(void)
          "      --depth N          how often light may be reflected or refracted\n"
          "      --cutoff X         rays that count less are not followed; 0 follows all\n"
          "      --spp N            samples per pixel\n"
+         "      --error E          choose depth, cutoff and samples so that no pixel is estimated to be\n"
+         "                         off by more than E (1/255, 0.002 …) in a channel, linear\n"
          "  -m, --method NAME=VALUE  a way to compute: sphere=textbook, aa=adaptive:0.05,64 …; turner\n"
          "                         params lists them (may be repeated)\n"
          "      --shading KIND     phong | energy_conserving\n"
@@ -53,11 +55,13 @@ static void print_help(void)
 
 #define MAX_SHADER_DIRS 16
 #define MAX_METHODS 64
+#define ERROR_LEAST 1e-6 /* of floats, with room for a few operations on them */
+#define ERROR_MOST 1e6
 
 struct arguments {
     const char *scene, *output, *stats;
     int width, height, depth, spp, shading, shadows, transfer; /* −1 (or 0): the scene's */
-    double cutoff, exposure; /* NaN: the scene's */
+    double cutoff, exposure, error; /* NaN: the scene's */
     bool spd_rays, spd_grid, print_settings, quiet;
     const char *shader_dirs[MAX_SHADER_DIRS];
     const char *methods[MAX_METHODS]; /* "name=value", later ones win */
@@ -69,7 +73,7 @@ struct arguments {
 enum { OPTION_SIZE = 256, OPTION_DEPTH, OPTION_CUTOFF, OPTION_SPP, OPTION_SHADING, OPTION_SHADOWS,
        OPTION_EXPOSURE, OPTION_TRANSFER, OPTION_SPD_RAYS, OPTION_SPD_GRID, OPTION_TRAVERSAL,
        OPTION_SHADER_DIR, OPTION_TILE, OPTION_THREADS, OPTION_UNSPECIALISED, OPTION_STATS,
-       OPTION_PRINT_SETTINGS, OPTION_AOV };
+       OPTION_PRINT_SETTINGS, OPTION_AOV, OPTION_ERROR };
 
 static const struct option long_options[] = {
     {"output", required_argument, NULL, 'o'},
@@ -82,6 +86,7 @@ static const struct option long_options[] = {
     {"shadows", required_argument, NULL, OPTION_SHADOWS},
     {"exposure", required_argument, NULL, OPTION_EXPOSURE},
     {"transfer", required_argument, NULL, OPTION_TRANSFER},
+    {"error", required_argument, NULL, OPTION_ERROR},
     {"aov", required_argument, NULL, OPTION_AOV},
     {"spd-rays", no_argument, NULL, OPTION_SPD_RAYS},
     {"spd-grid", no_argument, NULL, OPTION_SPD_GRID},
@@ -123,6 +128,8 @@ static enum turner_result take(struct arguments *a, int option, char **argv)
         return turner_option_real(&a->exposure, "--exposure", optarg, -64, 64);
     case OPTION_TRANSFER:
         return turner_option_choice(&a->transfer, "--transfer", optarg, transfers);
+    case OPTION_ERROR:
+        return turner_option_fraction(&a->error, "--error", optarg, ERROR_LEAST, ERROR_MOST);
     case OPTION_AOV: return turner_layers_parse(&a->layers.wanted, optarg);
     case OPTION_SPD_RAYS: a->spd_rays = true; return TURNER_OK;
     case OPTION_SPD_GRID: a->spd_grid = true; return TURNER_OK;
@@ -159,6 +166,13 @@ static enum turner_result apply(const struct arguments *a, struct turner_scene *
         s->cutoff = a->cutoff;
     if (a->spp)
         s->spp = a->spp, s->aa_threshold = 0;
+    if (a->spp || a->depth >= 0 || !isnan(a->cutoff))
+        s->error = 0;
+    if (!isnan(a->error) && (a->spp || a->depth >= 0 || !isnan(a->cutoff)))
+        return turner_fail(TURNER_USAGE, "--error chooses depth, cutoff and samples itself; leave "
+                                         "out --depth, --cutoff and --spp");
+    if (!isnan(a->error))
+        s->error = a->error;
     if (a->shading >= 0)
         s->shading = (enum turner_shading)a->shading;
     if (a->shadows >= 0)
@@ -206,7 +220,14 @@ static void print_summary(const struct arguments *a, const struct turner_statist
     printf("%s: %llu rays in %.3f s (%.2f million a second) on %s, %s, %s\n", a->output,
            (unsigned long long)rays, s->seconds_trace, (double)rays / s->seconds_trace / 1e6,
            s->device, s->traversal, s->precision);
-    if (s->pruned_max > 0)
+    if (s->error_max > 0)
+        printf("error: estimated %.2g at most, %.2g on average; %.1f samples a pixel, %d at most; "
+               "depth %d, cutoff %.2g\n", s->error_max, s->error_mean, s->samples_mean,
+               s->samples_max, s->largest_depth, s->cutoff_least);
+    if (s->error_missed)
+        printf("%llu pixel%s could not be brought below the error asked for\n",
+               (unsigned long long)s->error_missed, s->error_missed == 1 ? "" : "s");
+    else if (s->pruned_max > 0 && s->error_max == 0)
         printf("cut off: weight %.2g per pixel on average, %.2g at most (times the largest "
                "radiance bounds the error)\n", s->pruned_mean, s->pruned_max);
 }
@@ -239,7 +260,7 @@ done:
 
 enum turner_result turner_cmd_render(int argc, char **argv)
 {
-    struct arguments a = {.depth = -1, .cutoff = NAN, .exposure = NAN, .shading = -1,
+    struct arguments a = {.depth = -1, .cutoff = NAN, .exposure = NAN, .error = NAN, .shading = -1,
                           .shadows = -1, .transfer = -1};
     opterr = 0;
     for (int option; (option = getopt_long(argc, argv, "o:d:m:qh", long_options, NULL)) != -1;) {

@@ -17,6 +17,8 @@ static cJSON *settings_object(const struct turner_settings *settings)
     cJSON_AddNumberToObject(object, "depth", settings->depth);
     cJSON_AddNumberToObject(object, "cutoff", settings->cutoff);
     cJSON_AddNumberToObject(object, "spp", settings->spp);
+    if (settings->error > 0)
+        cJSON_AddNumberToObject(object, "error", settings->error);
     cJSON_AddStringToObject(object, "shading", settings->shading == TURNER_SHADING_PHONG
                                                    ? "phong" : "energy_conserving");
     cJSON_AddStringToObject(object, "shadows", settings->shadows == TURNER_SHADOWS_OPAQUE
@@ -77,6 +79,15 @@ static cJSON *statistics_object(const struct turner_scene *scene,
     cJSON *samples = cJSON_AddObjectToObject(object, "samples");
     cJSON_AddNumberToObject(samples, "mean", s->samples_mean);
     cJSON_AddNumberToObject(samples, "max", s->samples_max);
+
+    if (scene->settings.error > 0) {
+        cJSON *error = cJSON_AddObjectToObject(object, "error");
+        cJSON_AddNumberToObject(error, "asked", scene->settings.error);
+        cJSON_AddNumberToObject(error, "mean", s->error_mean);
+        cJSON_AddNumberToObject(error, "max", s->error_max);
+        add_count(error, "missed", s->error_missed);
+        cJSON_AddNumberToObject(error, "cutoff_least", s->cutoff_least);
+    }
 
     cJSON *pruned = cJSON_AddObjectToObject(object, "pruned");
     cJSON_AddNumberToObject(pruned, "mean", s->pruned_mean);

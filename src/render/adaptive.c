@@ -4,7 +4,8 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "render/cells.h"
+#include "render/estimate.h"
+#include "render/follow.h"
 #include "render/layers.h"
 #include "render/tally.h"
 
@@ -12,6 +13,8 @@
 #define TILE_SAMPLES (1 << 22)    /* that a tile may come to take, where pixels take the most */
 #define LEVEL_MAX 12
 #define FLOAT_BITS 24
+#define SPLIT_SHARE 0.25f         /* of the most that a cell of the pixel adds */
+#define SAMPLING_LEAST 0.25f      /* of the error asked for */
 
 struct picture {
     struct turner_renderer *renderer;
@@ -21,7 +24,8 @@ struct picture {
     struct turner_lattice lattice;
     struct turner_cells cells;
     int level_max; /* positions are exact in float that far */
-    double samples;
+    double samples, errors; /* sums over pixels */
+    struct turner_scale scale; /* where an error is asked for */
 };
 
 struct tile {
@@ -30,7 +34,7 @@ struct tile {
 
 bool turner_adaptive_wanted(const struct turner_settings *settings)
 {
-    return settings->aa_threshold > 0;
+    return settings->aa_threshold > 0 || settings->error > 0;
 }
 
 /* ---- Whitted's rule ---- */
@@ -61,20 +65,14 @@ static int compare_cells(const void *a, const void *b)
     return cell_a < cell_b ? -1 : cell_a > cell_b;
 }
 
-/* Of the patch's cells that differ by more than the threshold, marks as many as samples are left
- * for, those that differ most. */
-static void decide(struct picture *picture, const struct turner_patch *patch)
+/* Takes the mark from cells of least measure, where samples are not left for all. */
+static void keep_to_budget(const struct picture *picture, const struct turner_patch *patch)
 {
-    const struct turner_settings *settings = &picture->renderer->settings;
     struct turner_cell *cells = picture->cells.cells + patch->first;
-    size_t room = (size_t)(settings->spp - patch->samples) / TURNER_CELL_SPLIT;
+    size_t room = (size_t)(picture->renderer->settings.spp - patch->samples) / TURNER_CELL_SPLIT;
     size_t count = 0;
-    for (size_t i = 0; i < patch->count; i++) {
-        cells[i].measure = spread(picture->lattice.values, &cells[i]);
-        cells[i].split = (double)cells[i].measure > settings->aa_threshold &&
-                         cells[i].level < picture->level_max;
+    for (size_t i = 0; i < patch->count; i++)
         count += cells[i].split;
-    }
     if (count <= room)
         return;
     struct turner_cell **order = turner_calloc(count, sizeof *order);
@@ -89,22 +87,44 @@ static void decide(struct picture *picture, const struct turner_patch *patch)
     free(order);
 }
 
-/* ---- a tile ---- */
-
-static enum turner_result trace_new(struct picture *picture)
+static void mark_by_threshold(const struct picture *picture, const struct turner_patch *patch)
 {
-    const struct turner_settings *settings = &picture->renderer->settings;
-    struct turner_lattice *lattice = &picture->lattice;
-    size_t first = lattice->traced;
-    TURNER_TRY(turner_renderer_trace_counted(
-        picture->renderer, settings->depth, settings->cutoff, lattice->positions + first,
-        lattice->count - first, lattice->values + first,
-        lattice->counted ? lattice->counts + first : NULL));
-    lattice->traced = lattice->count;
-    return TURNER_OK;
+    double threshold = picture->renderer->settings.aa_threshold;
+    struct turner_cell *cells = picture->cells.cells + patch->first;
+    for (size_t i = 0; i < patch->count; i++) {
+        cells[i].measure = spread(picture->lattice.values, &cells[i]);
+        cells[i].split =
+            (double)cells[i].measure > threshold && cells[i].level < picture->level_max;
+    }
 }
 
-static void finish(struct picture *picture, const struct turner_patch *patch)
+/* ---- an error on demand ---- */
+
+/* The estimate of a patch; where it is too much, marks the cells that it comes from. */
+static float mark_by_error(const struct picture *picture, const struct turner_patch *patch)
+{
+    struct turner_estimate estimate =
+        turner_estimate_pixel(&picture->cells, patch, &picture->scale);
+    float total = turner_estimate_total(&estimate), most = 0;
+    struct turner_cell *cells = picture->cells.cells + patch->first;
+    for (size_t i = 0; i < patch->count; i++) {
+        cells[i].split = false;
+        if (cells[i].level < picture->level_max)
+            most = fmaxf(most, cells[i].measure);
+    }
+    /* what sampling may take; more samples do not help against the rest */
+    float asked = (float)picture->renderer->settings.error;
+    float left = fmaxf(asked - estimate.cut - estimate.rounding, SAMPLING_LEAST * asked);
+    if (patch->count > 1 && fmaxf(estimate.sampling + estimate.hidden, estimate.look) <= left)
+        return total;
+    for (size_t i = 0; i < patch->count; i++)
+        cells[i].split = cells[i].level < picture->level_max && cells[i].measure >= SPLIT_SHARE * most;
+    return total;
+}
+
+/* ---- a tile ---- */
+
+static void finish(struct picture *picture, const struct turner_patch *patch, float error)
 {
     struct turner_statistics *statistics = picture->statistics;
     size_t at = (size_t)patch->y * (size_t)picture->image->width + (size_t)patch->x;
@@ -114,6 +134,11 @@ static void finish(struct picture *picture, const struct turner_patch *patch)
         statistics->samples_max = patch->samples;
     if (turner_layers_want(picture->layers, 1u << TURNER_LAYER_SAMPLES))
         picture->layers->whole[TURNER_LAYER_SAMPLES][at] = (uint32_t)patch->samples;
+    picture->errors += (double)error;
+    statistics->error_max = fmax(statistics->error_max, (double)error);
+    statistics->error_missed += (double)error > picture->renderer->settings.error;
+    if (turner_layers_want(picture->layers, 1u << TURNER_LAYER_ERROR))
+        picture->layers->real[TURNER_LAYER_ERROR][at] = error;
 }
 
 static void finish_counts(const struct picture *picture, const struct turner_patch *patch)
@@ -137,6 +162,35 @@ static void begin_block(struct picture *picture, struct tile tile, int x, int y)
     }
 }
 
+/* Two pixels around the tile, be they in the picture or not. */
+static void begin_border(struct picture *picture, struct tile tile)
+{
+    struct turner_cell cell;
+    for (int y = tile.y - 2; y < tile.y + tile.height + 2; y++) {
+        bool between = y >= tile.y && y < tile.y + tile.height;
+        for (int x = tile.x - 2; x < tile.x + tile.width + 2; x++) {
+            if (between && x == tile.x)
+                x += tile.width;
+            turner_cells_first(&cell, &picture->lattice, x, y);
+        }
+    }
+}
+
+/* Marks the cells of a patch that are to be divided; true if there are any. */
+static bool mark(struct picture *picture, const struct turner_patch *patch, float *error)
+{
+    *error = 0;
+    if (picture->renderer->settings.error > 0)
+        *error = mark_by_error(picture, patch);
+    else
+        mark_by_threshold(picture, patch);
+    keep_to_budget(picture, patch);
+    bool any = false;
+    for (size_t i = 0; i < patch->count; i++)
+        any = any || picture->cells.cells[patch->first + i].split;
+    return any;
+}
+
 static enum turner_result draw_tile(struct picture *picture, struct tile tile)
 {
     struct turner_cells *cells = &picture->cells;
@@ -146,18 +200,23 @@ static enum turner_result draw_tile(struct picture *picture, struct tile tile)
         for (int x = tile.x; x < tile.x + tile.width; x += 8)
             begin_block(picture, tile, x, y);
     }
-    while (cells->patch_count) {
-        TURNER_TRY(trace_new(picture));
+    bool on_demand = picture->renderer->settings.error > 0;
+    if (on_demand)
+        begin_border(picture, tile);
+    for (bool first = true; cells->patch_count; first = false) {
+        TURNER_TRY(turner_follow(&picture->lattice, picture->renderer, picture->scale.bound,
+                                 &picture->statistics->cutoff_least));
+        for (size_t i = 0; i < cells->patch_count && first && on_demand; i++) {
+            struct turner_patch *patch = &cells->patches[i];
+            patch->around = turner_surroundings_of(&picture->lattice, patch->x, patch->y);
+        }
         for (size_t i = 0; i < cells->patch_count; i++) {
-            const struct turner_patch *patch = &cells->patches[i];
-            decide(picture, patch);
-            bool divided = false;
-            for (size_t k = 0; k < patch->count; k++)
-                divided = divided || cells->cells[patch->first + k].split;
-            if (!divided)
-                finish(picture, patch);
-            if (!divided && picture->lattice.counted)
-                finish_counts(picture, patch);
+            float error;
+            if (mark(picture, &cells->patches[i], &error))
+                continue;
+            finish(picture, &cells->patches[i], error);
+            if (picture->lattice.counted)
+                finish_counts(picture, &cells->patches[i]);
         }
         turner_cells_divide(cells);
     }
@@ -192,6 +251,8 @@ static enum turner_result draw(struct picture *picture, const struct turner_rend
 {
     const struct turner_image *image = picture->image;
     int edge = tile_edge(picture->renderer);
+    if (picture->renderer->settings.error > 0)
+        TURNER_TRY(turner_follow_bound(&picture->scale.bound, picture->renderer));
     double pixels = (double)image->width * image->height, done = 0;
     for (int y = 0; y < image->height; y += edge) {
         for (int x = 0; x < image->width; x += edge) {
@@ -206,6 +267,7 @@ static enum turner_result draw(struct picture *picture, const struct turner_rend
         }
     }
     picture->statistics->samples_mean = picture->samples / pixels;
+    picture->statistics->error_mean = picture->errors / pixels;
     return TURNER_OK;
 }
 
@@ -222,6 +284,8 @@ enum turner_result turner_adaptive_draw(struct turner_renderer *renderer,
         .level_max = level_max(&renderer->settings),
     };
     statistics->samples_max = 0;
+    statistics->cutoff_least = renderer->settings.cutoff;
+    picture.scale.size = (float)(image->width > image->height ? image->width : image->height);
     picture.cells.lattice = &picture.lattice;
     turner_lattice_create(&picture.lattice, picture.level_max + 1);
     picture.lattice.counted = renderer->needs.pixel_counts;

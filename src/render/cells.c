@@ -12,29 +12,28 @@ void turner_cells_destroy(struct turner_cells *cells)
     *cells = (struct turner_cells){.lattice = cells->lattice};
 }
 
-uint32_t turner_cells_corner(struct turner_lattice *lattice, int x, int y)
+static uint32_t corner(struct turner_lattice *lattice, int x, int y)
 {
-    return turner_lattice_at(lattice, (uint32_t)x << lattice->shift, (uint32_t)y << lattice->shift);
+    return turner_lattice_at(lattice, x * (1 << lattice->shift), y * (1 << lattice->shift));
 }
 
-uint32_t turner_cells_center(struct turner_lattice *lattice, int x, int y)
+void turner_cells_first(struct turner_cell *cell, struct turner_lattice *lattice, int x, int y)
 {
-    uint32_t half = 1u << (lattice->shift - 1);
-    return turner_lattice_at(lattice, ((uint32_t)x << lattice->shift) + half,
-                             ((uint32_t)y << lattice->shift) + half);
+    int32_t edge = 1 << lattice->shift;
+    *cell = (struct turner_cell){
+        .center = turner_lattice_at(lattice, x * edge + edge / 2, y * edge + edge / 2),
+        .corner = {corner(lattice, x, y), corner(lattice, x + 1, y), corner(lattice, x, y + 1),
+                   corner(lattice, x + 1, y + 1)},
+    };
 }
 
 void turner_cells_begin(struct turner_cells *cells, int x, int y)
 {
-    struct turner_lattice *lattice = cells->lattice;
-    struct turner_cell cell = {
-        .center = turner_cells_center(lattice, x, y),
-        .corner = {turner_cells_corner(lattice, x, y), turner_cells_corner(lattice, x + 1, y),
-                   turner_cells_corner(lattice, x, y + 1),
-                   turner_cells_corner(lattice, x + 1, y + 1)},
-    };
+    struct turner_cell cell;
+    turner_cells_first(&cell, cells->lattice, x, y);
     *TURNER_PUSH(cells->patches, cells->patch_count, cells->patch_capacity) =
-        (struct turner_patch){x, y, TURNER_CELL_SAMPLES, cells->cell_count, 1};
+        (struct turner_patch){.x = x, .y = y, .samples = TURNER_CELL_SAMPLES,
+                              .first = cells->cell_count, .count = 1};
     *TURNER_PUSH(cells->cells, cells->cell_count, cells->cell_capacity) = cell;
 }
 
@@ -42,17 +41,17 @@ static void divide(struct turner_cells *cells, const struct turner_patch *patch,
                    const struct turner_cell *cell)
 {
     struct turner_lattice *lattice = cells->lattice;
-    uint32_t edge = 1u << (lattice->shift - cell->level), half = edge / 2, quarter = edge / 4;
-    uint32_t x = ((uint32_t)patch->x << lattice->shift) + cell->x * edge;
-    uint32_t y = ((uint32_t)patch->y << lattice->shift) + cell->y * edge;
+    int32_t edge = 1 << (lattice->shift - cell->level), half = edge / 2, quarter = edge / 4;
+    int32_t x = patch->x * (1 << lattice->shift) + cell->x * edge;
+    int32_t y = patch->y * (1 << lattice->shift) + cell->y * edge;
     const uint32_t at[3][3] = {
         {cell->corner[0], turner_lattice_at(lattice, x + half, y), cell->corner[1]},
         {turner_lattice_at(lattice, x, y + half), cell->center,
          turner_lattice_at(lattice, x + edge, y + half)},
         {cell->corner[2], turner_lattice_at(lattice, x + half, y + edge), cell->corner[3]},
     };
-    for (uint32_t i = 0; i < 4; i++) {
-        uint32_t column = i & 1, row = i >> 1;
+    for (int i = 0; i < 4; i++) {
+        int column = i & 1, row = i >> 1;
         struct turner_cell child = {
             .center = turner_lattice_at(lattice, x + column * half + quarter,
                                         y + row * half + quarter),
@@ -61,6 +60,7 @@ static void divide(struct turner_cells *cells, const struct turner_patch *patch,
             .x = (uint16_t)(2 * cell->x + column),
             .y = (uint16_t)(2 * cell->y + row),
             .level = (uint8_t)(cell->level + 1),
+            .parent_bend = cell->bend,
         };
         *TURNER_PUSH(cells->next, cells->next_count, cells->next_capacity) = child;
     }

@@ -15,6 +15,18 @@ struct turner_cell {
     uint8_t level;
     bool split;         /* to be divided next */
     float measure;      /* for whoever decides */
+    float bend;         /* how far the mean of the corners is from the centre (estimate.c) */
+    float parent_bend;  /* of the square that it was part of */
+};
+
+/* Bends of squares. */
+struct turner_surroundings {
+    float own;    /* of the pixel */
+    float most;   /* of it, of the four that stand on their corner across its sides, and
+                     the median around it */
+    float median; /* of the eight pixels around */
+    float far;    /* the greatest of them; those beyond count half */
+    float change; /* the median of their differences from the pixel's own */
 };
 
 /* A pixel that is not finished. */
@@ -22,6 +34,7 @@ struct turner_patch {
     int x, y;
     int samples;         /* so far; those shared with neighbouring squares count twice */
     size_t first, count; /* its cells */
+    struct turner_surroundings around; /* where an error is asked for */
 };
 
 /* Patches and their cells; cells of one patch lie together, in the order of their divisions. */
@@ -37,9 +50,8 @@ void turner_cells_destroy(struct turner_cells *cells);
 /* Begins a pixel as one square; its samples are in the lattice then, not yet traced. */
 void turner_cells_begin(struct turner_cells *cells, int x, int y);
 
-/* The sample in a pixel's centre, and that in its top left corner. */
-uint32_t turner_cells_center(struct turner_lattice *lattice, int x, int y);
-uint32_t turner_cells_corner(struct turner_lattice *lattice, int x, int y);
+/* A pixel as one square, in no patch: its samples are in the lattice then. */
+void turner_cells_first(struct turner_cell *cell, struct turner_lattice *lattice, int x, int y);
 
 /* Divides every cell with `split`; patches without one are finished and left out. */
 void turner_cells_divide(struct turner_cells *cells);

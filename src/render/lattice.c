@@ -65,11 +65,11 @@ static void grow(struct turner_lattice *lattice)
     free(old_indices);
 }
 
-uint32_t turner_lattice_at(struct turner_lattice *lattice, uint32_t x, uint32_t y)
+uint32_t turner_lattice_at(struct turner_lattice *lattice, int32_t x, int32_t y)
 {
     if (lattice->count == lattice->capacity)
         grow(lattice);
-    uint64_t key = ((uint64_t)y << 32 | x) + 1;
+    uint64_t key = ((uint64_t)(uint32_t)y << 32 | (uint32_t)x) + 1;
     size_t slot = slot_of(lattice, key);
     if (!lattice->keys[slot]) {
         float unit = 1.0f / (float)(1u << lattice->shift);

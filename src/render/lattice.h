@@ -22,7 +22,7 @@ void turner_lattice_destroy(struct turner_lattice *lattice);
 /* Forgets all samples. */
 void turner_lattice_clear(struct turner_lattice *lattice);
 
-/* The sample at a place, a new one if there was none. */
-uint32_t turner_lattice_at(struct turner_lattice *lattice, uint32_t x, uint32_t y);
+/* The sample at a place, a new one if there was none; (−1, −1) is none. */
+uint32_t turner_lattice_at(struct turner_lattice *lattice, int32_t x, int32_t y);
 
 #endif

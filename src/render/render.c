@@ -8,8 +8,10 @@
 #include "render/cells.h"
 #include "render/contrast.h"
 #include "render/features.h"
+#include "render/follow.h"
 #include "render/layers.h"
 #include "render/renderer.h"
+#include "../shaders/shared.h"
 
 static void inspect(const struct turner_image *image, struct turner_statistics *statistics)
 {
@@ -93,7 +95,11 @@ static enum turner_result draw_on_device(struct turner_image *image,
     start = turner_seconds();
     TURNER_TRY_DONE(turner_kernel_create(&kernel, kind, options));
     statistics->seconds_compile = turner_seconds() - start;
-    TURNER_TRY_DONE(turner_renderer_create(&renderer, &gpu, &kernel, scene, options, statistics));
+    struct turner_scene deep = *scene; /* shares all but its settings */
+    if (deep.settings.error > 0)
+        turner_follow_settings(&deep.settings,
+                               turner_needs_of(scene).bits & TURNER_NEEDS_BRANCHING);
+    TURNER_TRY_DONE(turner_renderer_create(&renderer, &gpu, &kernel, &deep, options, statistics));
     statistics->traversal = kind & TURNER_RAY_QUERY ? "ray_query" : "bvh";
     statistics->precision = methods->precision == TURNER_PRECISION_F64 ? "f64" : "f32";
     if (turner_layers_want(options->layers, TURNER_LAYERS_OF_CENTER))
@@ -125,6 +131,9 @@ enum turner_result turner_render(struct turner_image *image, const struct turner
 
     memset(image, 0, sizeof *image);
     bool reference = options->device && strcmp(options->device, "reference") == 0;
+    if (reference && scene->settings.error > 0)
+        return turner_fail(TURNER_USAGE, "the reference draws with given samples, depth and "
+                                         "cutoff, not to an error; give it --spp");
     if (options->layers)
         TURNER_TRY(turner_layers_create(options->layers, scene));
     if (!reference) /* that makes its own */
@@ -134,7 +143,8 @@ enum turner_result turner_render(struct turner_image *image, const struct turner
     inspect(image, statistics);
     if (options->layers)
         turner_layers_inspect(options->layers, image);
-    if (turner_layers_want(options->layers, 1u << TURNER_LAYER_ERROR))
+    if (scene->settings.error == 0 &&
+        turner_layers_want(options->layers, 1u << TURNER_LAYER_ERROR))
         turner_contrast_estimate(options->layers->real[TURNER_LAYER_ERROR], image,
                                  least_samples(&scene->settings, reference));
     warn(statistics);

@@ -19,6 +19,7 @@ static const struct json_key settings_keys[] = {
     JSON_KEY_ANY("size", false),
     JSON_KEY_IN("depth", JSON_INTEGER, false, SETTING(depth), JSON_FROM_TO(0, TURNER_MAX_DEPTH)),
     JSON_KEY_IN("cutoff", JSON_NUMBER, false, SETTING(cutoff), JSON_NOT_NEGATIVE),
+    JSON_KEY_IN("error", JSON_NUMBER, false, SETTING(error), JSON_NOT_NEGATIVE),
     JSON_KEY_IN("spp", JSON_INTEGER, false, SETTING(spp), JSON_FROM_TO(1, TURNER_MAX_SPP)),
     JSON_KEY_CHOICE("shading", false, SETTING(shading), shadings),
     JSON_KEY_CHOICE("shadows", false, SETTING(shadows), shadow_kinds),

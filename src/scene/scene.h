@@ -75,6 +75,8 @@ struct turner_settings {
     int spp;               /* samples per pixel, ≥ 1; default 1; pattern in docs/model.md */
     double aa_threshold;   /* > 0: adaptive, a pixel gets up to spp samples where its corners and
                               centre differ by more in a channel; 0: each gets spp */
+    double error;          /* > 0: depth, cutoff and samples are chosen so that pixels are estimated
+                              to be off by no more, in a channel; spp is then the most samples */
     struct turner_methods methods;
     enum turner_shading shading;   /* default energy_conserving */
     enum turner_shadows shadows;   /* default tinted */

@@ -98,6 +98,7 @@ static enum turner_result check_settings(const struct turner_settings *s)
           s->spp, TURNER_MAX_SPP);
     CHECK(subject, usable(s->aa_threshold) && s->aa_threshold >= 0,
           "the threshold %g of adaptive samples must be 0 or above", s->aa_threshold);
+    CHECK(subject, usable(s->error) && s->error >= 0, "the error %g must be 0 or above", s->error);
     CHECK(subject, s->methods.offset != TURNER_OFFSET_TMIN ||
           (usable(s->methods.tmin) && s->methods.tmin > 0), "tmin %g must be above 0",
           s->methods.tmin);

@@ -1,0 +1,33 @@
+/* How wrong a pixel may be: what its samples, those around it and the weights that were cut tell of
+ * it. docs/error.md derives each term and shows how well they hold. */
+#ifndef TURNER_RENDER_ESTIMATE_H
+#define TURNER_RENDER_ESTIMATE_H
+
+#include "render/cells.h"
+
+/* Radiance, in the channel where it is most. */
+struct turner_estimate {
+    float sampling; /* what the squares of samples are wrong by */
+    float hidden;   /* what no sample saw, going by what is around */
+    float look;     /* not part of it: where this is much, more samples are worth their while */
+    float cut;      /* rays that were not followed */
+    float rounding;
+};
+
+float turner_estimate_total(const struct turner_estimate *estimate);
+
+/* What is around the pixel; the first squares of the 5×5 pixels around it are traced. */
+struct turner_surroundings turner_surroundings_of(struct turner_lattice *lattice, int x, int y);
+
+/* Of a whole picture. */
+struct turner_scale {
+    float bound; /* radiance that a ray of weight 1 may bring */
+    float size;  /* larger edge in pixels */
+};
+
+/* Sets the measure of each cell of the patch to its share and estimates the pixel. */
+struct turner_estimate turner_estimate_pixel(const struct turner_cells *cells,
+                                             const struct turner_patch *patch,
+                                             const struct turner_scale *scale);
+
+#endif

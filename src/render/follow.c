@@ -1,0 +1,128 @@
+#include "render/follow.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+#define CUT_SHARE 0.25    /* of the error, that cut rays may take */
+#define CUTOFF_STEP 8
+#define CUTOFF_LEAST 1e-7
+#define GRID 4            /* pixels between samples of the coarse grid */
+
+void turner_follow_settings(struct turner_settings *settings, bool branches)
+{
+    settings->depth = branches ? TURNER_MAX_BRANCH_DEPTH : TURNER_MAX_DEPTH;
+    settings->cutoff = fmax(fmin(CUT_SHARE * settings->error, 0.5), CUTOFF_LEAST);
+    settings->spp = TURNER_ERROR_SAMPLES;
+}
+
+enum turner_result turner_follow_bound(float *bound, struct turner_renderer *renderer)
+{
+    const struct turner_settings *settings = &renderer->settings;
+    size_t columns = (size_t)(settings->width + GRID - 1) / GRID;
+    size_t rows = (size_t)(settings->height + GRID - 1) / GRID;
+    float(*positions)[2] = turner_calloc(columns * rows, sizeof *positions);
+    float(*values)[4] = turner_calloc(columns * rows, sizeof *values);
+    enum turner_result result;
+    for (size_t i = 0; i < columns * rows; i++) {
+        positions[i][0] = (float)(i % columns * GRID) + 0.5f * GRID;
+        positions[i][1] = (float)(i / columns * GRID) + 0.5f * GRID;
+    }
+    TURNER_TRY_DONE(turner_renderer_trace(renderer, settings->depth, settings->cutoff,
+                                          (const float(*)[2])positions, columns * rows, values));
+    *bound = 0;
+    for (size_t i = 0; i < columns * rows; i++) {
+        for (int c = 0; c < 3; c++)
+            *bound = isfinite(values[i][c]) ? fmaxf(*bound, values[i][c]) : *bound;
+    }
+done:
+    free(positions);
+    free(values);
+    return result;
+}
+
+/* Samples of a lattice that are traced again. */
+struct selection {
+    size_t *indices, count;
+    float (*positions)[2], (*values)[4];
+    struct turner_gpu_pixel_counts *counts; /* NULL unless they are wanted */
+};
+
+static void select_unfinished(struct selection *selection, const struct turner_lattice *lattice,
+                              float limit)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < selection->count; i++) {
+        size_t index = selection->indices[i];
+        if (!(lattice->values[index][3] > limit))
+            continue;
+        selection->indices[kept] = index;
+        memcpy(selection->positions[kept++], lattice->positions[index],
+               sizeof *selection->positions);
+    }
+    selection->count = kept;
+}
+
+/* Traces again what lost more than `limit`, with ever lower cutoffs. */
+static enum turner_result follow_further(struct turner_lattice *lattice,
+                                         struct turner_renderer *renderer, float limit,
+                                         double *cutoff_least)
+{
+    const struct turner_settings *settings = &renderer->settings;
+    size_t count = lattice->count - lattice->traced;
+    struct selection selection = {
+        .indices = turner_calloc(count, sizeof *selection.indices),
+        .count = count,
+        .positions = turner_calloc(count, sizeof *selection.positions),
+        .values = turner_calloc(count, sizeof *selection.values),
+        .counts = lattice->counted ? turner_calloc(count, sizeof *selection.counts) : NULL,
+    };
+    enum turner_result result = TURNER_OK;
+    for (size_t i = 0; i < count; i++)
+        selection.indices[i] = lattice->traced + i;
+    double cutoff = settings->cutoff;
+    for (;;) {
+        *cutoff_least = fmin(*cutoff_least, cutoff);
+        select_unfinished(&selection, lattice, limit);
+        if (selection.count == 0 || cutoff <= CUTOFF_LEAST)
+            break;
+        cutoff = fmax(cutoff / CUTOFF_STEP, CUTOFF_LEAST);
+        if (selection.counts)
+            memset(selection.counts, 0, selection.count * sizeof *selection.counts);
+        TURNER_TRY_DONE(turner_renderer_trace_counted(
+            renderer, settings->depth, cutoff, (const float(*)[2])selection.positions,
+            selection.count, selection.values, selection.counts));
+        for (size_t i = 0; i < selection.count; i++) {
+            memcpy(lattice->values[selection.indices[i]], selection.values[i],
+                   sizeof *selection.values);
+            if (selection.counts)
+                lattice->counts[selection.indices[i]] = selection.counts[i];
+        }
+    }
+done:
+    free(selection.indices);
+    free(selection.positions);
+    free(selection.values);
+    free(selection.counts);
+    return result;
+}
+
+enum turner_result turner_follow(struct turner_lattice *lattice, struct turner_renderer *renderer,
+                                 float bound, double *cutoff_least)
+{
+    const struct turner_settings *settings = &renderer->settings;
+    size_t first = lattice->traced;
+    if (first == lattice->count)
+        return TURNER_OK;
+    TURNER_TRY(turner_renderer_trace_counted(
+        renderer, settings->depth, settings->cutoff, (const float(*)[2])lattice->positions + first,
+        lattice->count - first, lattice->values + first,
+        lattice->counted ? lattice->counts + first : NULL));
+    if (settings->error > 0)
+        TURNER_TRY(follow_further(lattice, renderer, (float)(CUT_SHARE * settings->error) / bound,
+                                  cutoff_least));
+    lattice->traced = lattice->count;
+    return TURNER_OK;
+}

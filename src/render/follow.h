@@ -1,0 +1,21 @@
+/* Tracing the samples of a lattice, each as far as the error asked for needs. */
+#ifndef TURNER_RENDER_FOLLOW_H
+#define TURNER_RENDER_FOLLOW_H
+
+#include "render/lattice.h"
+
+#define TURNER_ERROR_SAMPLES 4096 /* of a pixel, at most */
+
+/* Depth and first cutoff of a scene whose settings ask for an error. */
+void turner_follow_settings(struct turner_settings *settings, bool branches);
+
+/* What a ray of weight 1 may bring: the largest radiance of a coarse grid over the picture. */
+enum turner_result turner_follow_bound(float *bound, struct turner_renderer *renderer);
+
+/* Traces what is new in the lattice. Where the settings ask for an error, samples whose cut weight
+ * times `bound` is a good part of it are traced again with lower cutoffs; `cutoff_least` gets the
+ * lowest. */
+enum turner_result turner_follow(struct turner_lattice *lattice, struct turner_renderer *renderer,
+                                 float bound, double *cutoff_least);
+
+#endif

@@ -1,0 +1,208 @@
+/* How well the estimate of --error holds, against the truth of truth.h, and what it costs beside
+ * fixed settings:
+ *
+ *   error_measure SCENE WIDTH HEIGHT ERROR [--truth FILE] [--fixed] [--share S] [--tight T]
+ *
+ * --truth keeps the truth in a file (.exr) for the next time. --fixed looks for the smallest regular
+ * setting that is as close to the truth on as many pixels, and says how long that takes. Prints one
+ * line; exit status 1 when the estimate is a bound on less than the share S of the pixels (0.999), or
+ * more than T times (10) the true error, or the spacing of floats there, on the median pixel. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "render/layers.h"
+#include "render/renderer.h"
+#include "truth.h"
+
+#define SHARE 0.999
+#define SPP_LEAST 4 /* of the grid of fixed settings */
+#define TRUTH_TOLERANCE 0.01 /* of the error asked for, that a square of the truth may be off by */
+
+struct arguments {
+    const char *scene, *truth;
+    int width, height;
+    double error, share, tight;
+    bool fixed;
+};
+
+static void require(enum turner_result result)
+{
+    if (result == TURNER_OK)
+        return;
+    fprintf(stderr, "%s\n", turner_message());
+    exit(result == TURNER_DEVICE ? 77 : 1);
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* The value that `share` of them do not exceed; sorts. */
+static double quantile(double *values, size_t count, double share)
+{
+    qsort(values, count, sizeof *values, compare_doubles);
+    size_t at = (size_t)ceil(share * (double)count);
+    return values[at > 0 ? at - 1 : 0];
+}
+
+static double true_error(const struct truth *truth, const struct turner_image *image, size_t i)
+{
+    double worst = 0;
+    for (int c = 0; c < 3; c++)
+        worst = fmax(worst, fabs((double)image->rgba[4 * i + (size_t)c] - truth->radiance[i][c]));
+    return worst;
+}
+
+/* Spacing of floats at the pixel's largest channel. */
+static double resolution(const struct truth *truth, size_t i)
+{
+    const double *v = truth->radiance[i];
+    double largest = fmax(v[0], fmax(v[1], v[2]));
+    return ldexp(1, -23) * fmax(largest, 1e-30);
+}
+
+struct result {
+    double bound, tightness;    /* share of pixels; median of estimate / true error */
+    double worst, most;         /* true error: largest, and that of 99.9 % */
+    double seconds;
+    struct turner_statistics statistics;
+};
+
+static struct result measure(const struct turner_scene *scene, const struct truth *truth)
+{
+    struct turner_layers layers = {.wanted = 1u << TURNER_LAYER_ERROR | 1u << TURNER_LAYER_SAMPLES};
+    const struct turner_render_options options = {.layers = &layers};
+    struct turner_image image;
+    struct result r = {0};
+    require(turner_render(&image, scene, &options, &r.statistics));
+    size_t count = (size_t)truth->width * (size_t)truth->height, bounded = 0;
+    double *errors = turner_calloc(count, sizeof *errors);
+    double *ratios = turner_calloc(count, sizeof *ratios);
+    const float *estimates = layers.real[TURNER_LAYER_ERROR];
+    for (size_t i = 0; i < count; i++) {
+        errors[i] = true_error(truth, &image, i);
+        bounded += errors[i] <= (double)estimates[i];
+        ratios[i] = (double)estimates[i] / fmax(errors[i], resolution(truth, i));
+    }
+    r.bound = (double)bounded / (double)count;
+    r.tightness = quantile(ratios, count, 0.5);
+    r.most = quantile(errors, count, SHARE);
+    r.worst = errors[count - 1];
+    r.seconds = r.statistics.seconds_trace;
+    free(errors);
+    free(ratios);
+    turner_layers_destroy(&layers);
+    turner_image_destroy(&image);
+    return r;
+}
+
+/* ---- beside fixed settings ---- */
+
+struct fixed {
+    int spp, depth;
+    double cutoff, most, seconds;
+    bool reached;
+};
+
+static struct fixed measure_fixed(const struct turner_scene *scene, const struct truth *truth,
+                                  struct fixed fixed)
+{
+    struct turner_scene copy = *scene;
+    struct turner_statistics statistics = {0};
+    struct turner_image image;
+    size_t count = (size_t)truth->width * (size_t)truth->height;
+    double *errors = turner_calloc(count, sizeof *errors);
+    copy.settings.error = copy.settings.aa_threshold = 0;
+    copy.settings.spp = fixed.spp;
+    copy.settings.depth = fixed.depth;
+    copy.settings.cutoff = fixed.cutoff;
+    if (fixed.spp == SPP_LEAST) { /* has the driver compile the kernel */
+        require(turner_render(&image, &copy, NULL, &statistics));
+        turner_image_destroy(&image);
+    }
+    require(turner_render(&image, &copy, NULL, &statistics));
+    for (size_t i = 0; i < count; i++)
+        errors[i] = true_error(truth, &image, i);
+    fixed.most = quantile(errors, count, SHARE);
+    fixed.seconds = statistics.seconds_trace;
+    turner_image_destroy(&image);
+    free(errors);
+    return fixed;
+}
+
+/* The first setting of a grid, in the order of samples, that is off by no more than `most` on 99.9 %
+ * of the pixels; gives up where one takes longer than `patience`. */
+static struct fixed find_fixed(const struct turner_scene *scene, const struct truth *truth,
+                               double most, double patience)
+{
+    static const struct {
+        int depth;
+        double cutoff;
+    } ends[] = {{8, 1.0 / 512}, {64, 1e-4}};
+    struct fixed fixed = {0};
+    for (int spp = SPP_LEAST; spp <= TURNER_MAX_SPP && fixed.seconds <= patience; spp *= 4) {
+        for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+            fixed.spp = spp;
+            fixed.depth = ends[i].depth;
+            fixed.cutoff = ends[i].cutoff;
+            fixed = measure_fixed(scene, truth, fixed);
+            fixed.reached = fixed.most <= most;
+            if (fixed.reached)
+                return fixed;
+        }
+    }
+    return fixed;
+}
+
+int main(int argc, char **argv)
+{
+    struct arguments a = {.share = SHARE, .tight = 10};
+    if (argc < 5) {
+        fprintf(stderr, "usage: error_measure SCENE WIDTH HEIGHT ERROR [--truth FILE] [--fixed]\n");
+        return 2;
+    }
+    a.scene = argv[1];
+    a.width = atoi(argv[2]);
+    a.height = atoi(argv[3]);
+    a.error = atof(argv[4]);
+    for (int i = 5; i < argc; i++) {
+        if (strcmp(argv[i], "--truth") == 0 && i + 1 < argc)
+            a.truth = argv[++i];
+        else if (strcmp(argv[i], "--share") == 0 && i + 1 < argc)
+            a.share = atof(argv[++i]);
+        else if (strcmp(argv[i], "--tight") == 0 && i + 1 < argc)
+            a.tight = atof(argv[++i]);
+        else
+            a.fixed = strcmp(argv[i], "--fixed") == 0;
+    }
+    struct turner_scene *scene;
+    struct truth truth;
+    require(turner_scene_load(&scene, a.scene));
+    scene->settings.width = a.width;
+    scene->settings.height = a.height;
+    scene->settings.error = a.error;
+    require(truth_create(&truth, scene, TRUTH_TOLERANCE * a.error, a.truth));
+    if (a.fixed)
+        measure(scene, &truth); /* has the driver compile the kernel */
+    struct result r = measure(scene, &truth);
+    printf("%s: bound on %.2f %%, median estimate %.1f times the error; true error %.2g on 99.9 %%, "
+           "%.2g at most; estimate %.2g on average, %.2g at most, %llu pixels missed; %.1f samples, "
+           "%.2f s\n", a.scene, 100 * r.bound, r.tightness, r.most, r.worst,
+           r.statistics.error_mean, r.statistics.error_max,
+           (unsigned long long)r.statistics.error_missed, r.statistics.samples_mean, r.seconds);
+    if (a.fixed) {
+        struct fixed f = find_fixed(scene, &truth, r.most, 1.5 * r.seconds);
+        fflush(stdout);
+        printf("    fixed: %s%d samples, depth %d, cutoff %.2g: 99.9 %% %.2e, %.2f s, %s\n",
+               f.reached ? "" : "not reached by ", f.spp, f.depth, f.cutoff, f.most, f.seconds,
+               f.seconds > r.seconds ? "slower" : "faster");
+    }
+    truth_destroy(&truth);
+    turner_scene_destroy(scene);
+    return r.bound >= a.share && r.tightness <= a.tight ? 0 : 1;
+}
