@@ -3,11 +3,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define SMOOTH 0.65f     /* of the sum of bends, which is six times the error of a smooth function */
+#define SMOOTH 0.8f      /* of the sum of bends; a smooth function is wrong by a sixth of it */
 #define REST 0.05f       /* of bends that cancel */
-#define EDGE 1.75f       /* of bends that are independent: 3.5 deviations of 0.5 */
+#define EDGE 2.2f        /* of bends that are independent: more than four deviations of 0.5 */
 #define STRAIGHT 0.65f   /* of the bends along an edge that runs as the squares do */
-#define STRAIGHT_LEAST 0.35f /* where squares differ */
+#define STRAIGHT_LEAST 0.45f /* where squares differ */
 #define SHRINKS 0.35f    /* of its parent's bend: a smooth square's is a quarter */
 #define EVEN 4.0f        /* times its own, that bends may reach around a smooth square */
 #define STEADY 0.7f      /* of its own, that bends around a smooth square may differ from it */
