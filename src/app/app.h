@@ -25,9 +25,6 @@ enum turner_result turner_option_int(int *out, const char *option, const char *t
                                      int most);
 enum turner_result turner_option_real(double *out, const char *option, const char *text,
                                       double least, double most);
-/* Also "1/255". */
-enum turner_result turner_option_fraction(double *out, const char *option, const char *text,
-                                          double least, double most);
 /* WIDTHxHEIGHT */
 enum turner_result turner_option_size(int *width, int *height, const char *option,
                                       const char *text);

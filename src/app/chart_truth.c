@@ -120,7 +120,7 @@ static struct turner_chart_truth *find(const struct turner_chart_truths *truths,
 /* Adaptive samples lie where the picture wants them, and the reference has none there. */
 static bool leave_out_adaptive(struct turner_chart_point *point)
 {
-    if (!(point->settings.aa_threshold > 0))
+    if (!(point->settings.aa_threshold > 0) && !(point->settings.error > 0))
         return false;
     snprintf(point->left_out, sizeof point->left_out,
              "the reference has no adaptive samples to compare with; use --against pixel");

@@ -55,8 +55,6 @@ static void print_help(void)
 
 #define MAX_SHADER_DIRS 16
 #define MAX_METHODS 64
-#define ERROR_LEAST 1e-6 /* of floats, with room for a few operations on them */
-#define ERROR_MOST 1e6
 
 struct arguments {
     const char *scene, *output, *stats;
@@ -102,6 +100,17 @@ static const struct option long_options[] = {
     {"help", no_argument, NULL, 'h'},
     {0}};
 
+static enum turner_result take_error(double *out, const char *text)
+{
+    double error;
+    if (!turner_fraction(&error, text) || error < TURNER_ERROR_LEAST || error > TURNER_ERROR_MOST)
+        return turner_fail(TURNER_USAGE, "--error takes a number from %g to %g, or a fraction as in "
+                                         "1/255, not \"%s\"", TURNER_ERROR_LEAST,
+                           TURNER_ERROR_MOST, text);
+    *out = error;
+    return TURNER_OK;
+}
+
 static enum turner_result take(struct arguments *a, int option, char **argv)
 {
     static const char *const shadings[] = {"phong", "energy_conserving", NULL};
@@ -128,8 +137,7 @@ static enum turner_result take(struct arguments *a, int option, char **argv)
         return turner_option_real(&a->exposure, "--exposure", optarg, -64, 64);
     case OPTION_TRANSFER:
         return turner_option_choice(&a->transfer, "--transfer", optarg, transfers);
-    case OPTION_ERROR:
-        return turner_option_fraction(&a->error, "--error", optarg, ERROR_LEAST, ERROR_MOST);
+    case OPTION_ERROR: return take_error(&a->error, optarg);
     case OPTION_AOV: return turner_layers_parse(&a->layers.wanted, optarg);
     case OPTION_SPD_RAYS: a->spd_rays = true; return TURNER_OK;
     case OPTION_SPD_GRID: a->spd_grid = true; return TURNER_OK;

@@ -28,23 +28,6 @@ enum turner_result turner_option_real(double *out, const char *option, const cha
     return TURNER_OK;
 }
 
-enum turner_result turner_option_fraction(double *out, const char *option, const char *text,
-                                          double least, double most)
-{
-    char *end, *last;
-    double value = strtod(text, &end);
-    if (end != text && *end == '/') {
-        double divisor = strtod(end + 1, &last);
-        value = last != end + 1 && divisor > 0 ? value / divisor : -1;
-        end = last;
-    }
-    if (end == text || *end || !(value >= least && value <= most))
-        return turner_fail(TURNER_USAGE, "%s takes a number from %g to %g, or a fraction as in "
-                                         "1/255, not \"%s\"", option, least, most, text);
-    *out = value;
-    return TURNER_OK;
-}
-
 enum turner_result turner_option_int(int *out, const char *option, const char *text, int least,
                                      int most)
 {

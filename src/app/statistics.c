@@ -32,7 +32,8 @@ static cJSON *settings_object(const struct turner_settings *settings)
     for (size_t i = 0; i < turner_method_count; i++) {
         const char *name = turner_methods_list[i].name;
         char text[TURNER_METHOD_TEXT];
-        if (strcmp(name, "depth") == 0 || strcmp(name, "cutoff") == 0)
+        if (strcmp(name, "depth") == 0 || strcmp(name, "cutoff") == 0 ||
+            strcmp(name, "error") == 0)
             continue; /* stand above, as numbers */
         turner_method_text(text, settings, name);
         cJSON_AddStringToObject(methods, name, text);

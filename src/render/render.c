@@ -8,7 +8,6 @@
 #include "render/cells.h"
 #include "render/contrast.h"
 #include "render/features.h"
-#include "render/follow.h"
 #include "render/layers.h"
 #include "render/renderer.h"
 #include "../shaders/shared.h"
@@ -95,11 +94,7 @@ static enum turner_result draw_on_device(struct turner_image *image,
     start = turner_seconds();
     TURNER_TRY_DONE(turner_kernel_create(&kernel, kind, options));
     statistics->seconds_compile = turner_seconds() - start;
-    struct turner_scene deep = *scene; /* shares all but its settings */
-    if (deep.settings.error > 0)
-        turner_follow_settings(&deep.settings,
-                               turner_needs_of(scene).bits & TURNER_NEEDS_BRANCHING);
-    TURNER_TRY_DONE(turner_renderer_create(&renderer, &gpu, &kernel, &deep, options, statistics));
+    TURNER_TRY_DONE(turner_renderer_create(&renderer, &gpu, &kernel, scene, options, statistics));
     statistics->traversal = kind & TURNER_RAY_QUERY ? "ray_query" : "bvh";
     statistics->precision = methods->precision == TURNER_PRECISION_F64 ? "f64" : "f32";
     if (turner_layers_want(options->layers, TURNER_LAYERS_OF_CENTER))

@@ -9,6 +9,7 @@
 #include "gpu/include.h"
 #include "gpu/specialise.h"
 #include "render/adaptive.h"
+#include "render/follow.h"
 #include "render/layers.h"
 
 double turner_seconds(void)
@@ -189,11 +190,15 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
            kind_of(&scene->settings.methods));
     renderer->gpu = gpu;
     renderer->ray_query = kernel->kind & TURNER_RAY_QUERY;
-    renderer->needs = turner_needs_of(scene);
+    struct turner_scene deep = *scene; /* shares all but its settings */
+    if (deep.settings.error > 0)
+        turner_follow_settings(&deep.settings,
+                               turner_needs_of(scene).bits & TURNER_NEEDS_BRANCHING);
+    renderer->needs = turner_needs_of(&deep);
     renderer->needs.pixel_counts = turner_layers_want(options->layers, TURNER_LAYERS_OF_RAYS);
-    renderer->settings = scene->settings;
+    renderer->settings = deep.settings;
     renderer->tile = options->tile;
-    enum turner_result result = create(renderer, kernel, scene, options, statistics);
+    enum turner_result result = create(renderer, kernel, &deep, options, statistics);
     if (result != TURNER_OK)
         turner_renderer_destroy(renderer);
     return result;

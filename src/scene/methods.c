@@ -1,6 +1,8 @@
 #include "scene/methods.h"
 
 #include <errno.h>
+#include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,6 +56,9 @@ const struct turner_method turner_methods_list[] = {
      "Whitted, CACM 23 (1980)"},
     {"cutoff", "0 … 1", "0.001953125", "Rays that count less in the pixel are not followed.",
      "Hall and Greenberg, IEEE CG&A 3 (1983)"},
+    {"error", "0 | <radiance> | 1/<n>", "0", "Above 0, depth, cutoff and samples are chosen so that "
+     "no pixel is estimated to be off by more in a channel; they take it back.",
+     "docs/error.md"},
     {"traversal", "auto | bvh | ray_query", "auto", "Who finds what a ray meets: turner's own "
      "hierarchy, or the device's.", "docs/model.md, \"Ties\""},
 };
@@ -121,6 +126,17 @@ static const char *read_int(int *out, const char *text, char stop, int least, in
     return end + 1;
 }
 
+bool turner_fraction(double *out, const char *text)
+{
+    double value, divisor = 1;
+    const char *rest = read_real(&value, text, '/', 0, HUGE_VAL);
+    if (rest ? !read_real(&divisor, rest, 0, DBL_MIN, HUGE_VAL)
+             : !read_real(&value, text, 0, 0, HUGE_VAL))
+        return false;
+    *out = value / divisor;
+    return isfinite(*out);
+}
+
 /* "tmin:<metres>" */
 static bool set_tmin(struct turner_methods *methods, const char *value)
 {
@@ -149,6 +165,16 @@ static bool set_aa(struct turner_settings *settings, const char *value)
     return true;
 }
 
+static bool set_error(struct turner_settings *settings, const char *value)
+{
+    double error;
+    if (!turner_fraction(&error, value) || (error != 0 && error < TURNER_ERROR_LEAST) ||
+        error > TURNER_ERROR_MOST)
+        return false;
+    settings->error = error;
+    return true;
+}
+
 static bool set(struct turner_settings *settings, const char *name, const char *value)
 {
     const struct choice *choice = find_choice(name);
@@ -156,12 +182,19 @@ static bool set(struct turner_settings *settings, const char *name, const char *
         return value[4] == ':' && set_tmin(&settings->methods, value);
     if (choice)
         return choose(&settings->methods, choice, value);
+    if (strcmp(name, "error") == 0)
+        return set_error(settings, value);
+    bool good;
     if (strcmp(name, "aa") == 0)
-        return set_aa(settings, value);
-    if (strcmp(name, "depth") == 0)
-        return read_int(&settings->depth, value, 0, 0, TURNER_MAX_DEPTH) &&
+        good = set_aa(settings, value);
+    else if (strcmp(name, "depth") == 0)
+        good = read_int(&settings->depth, value, 0, 0, TURNER_MAX_DEPTH) &&
                (settings->depth_asked = true);
-    return read_real(&settings->cutoff, value, 0, 0, 1);
+    else
+        good = read_real(&settings->cutoff, value, 0, 0, 1);
+    if (good)
+        settings->error = 0; /* it would choose these itself */
+    return good;
 }
 
 enum turner_result turner_method_set(struct turner_settings *settings, const char *name,
@@ -203,6 +236,8 @@ void turner_method_text(char text[TURNER_METHOD_TEXT], const struct turner_setti
                  settings->spp);
     else if (strcmp(name, "aa") == 0)
         snprintf(text, TURNER_METHOD_TEXT, "%d", settings->spp);
+    else if (strcmp(name, "error") == 0)
+        snprintf(text, TURNER_METHOD_TEXT, "%.9g", settings->error);
     else if (strcmp(name, "depth") == 0)
         snprintf(text, TURNER_METHOD_TEXT, "%d", settings->depth);
     else

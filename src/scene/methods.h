@@ -19,6 +19,13 @@ extern const size_t turner_method_count;
 /* TURNER_USAGE, naming the nearest, when there is none of that name. */
 enum turner_result turner_method_find(const struct turner_method **method, const char *name);
 
+/* "1/255" or "0.004" whole as a number ≥ 0. */
+bool turner_fraction(double *out, const char *text);
+
+/* The range of settings.error, where it is not 0. */
+#define TURNER_ERROR_LEAST 1e-6 /* of floats, with room for a few operations on them */
+#define TURNER_ERROR_MOST 1e6
+
 #define TURNER_METHOD_TEXT 64 /* bytes that hold any value */
 
 /* Sets the method `name` to `value`: "sphere" to "textbook", "aa" to "adaptive:0.05,64", "depth" to

@@ -55,12 +55,19 @@ static void values_with_numbers(void **state)
     assert_round("depth", "0");
     assert_round("depth", "1024");
     assert_round("cutoff", "0.25");
+    assert_round("error", "0.004");
     struct turner_settings settings = standard();
     assert_int_equal(turner_method_assign(&settings, "aa=adaptive:1e-2,256"), TURNER_OK);
     assert_int_equal(settings.spp, 256);
     assert_true(settings.aa_threshold == 1e-2);
     assert_int_equal(turner_method_assign(&settings, "aa=4"), TURNER_OK);
     assert_true(settings.spp == 4 && settings.aa_threshold == 0);
+    assert_int_equal(turner_method_assign(&settings, "error=1/255"), TURNER_OK);
+    assert_true(settings.error == 1.0 / 255);
+    assert_int_equal(turner_method_assign(&settings, "sphere=textbook"), TURNER_OK);
+    assert_true(settings.error > 0);
+    assert_int_equal(turner_method_assign(&settings, "depth=3"), TURNER_OK);
+    assert_true(settings.error == 0); /* whoever says depth, cutoff or samples chooses them */
 }
 
 static void refusals(void **state)
@@ -71,7 +78,8 @@ static void refusals(void **state)
         "offset=tmin:-1", "offset=tmin:nan", "offset=tmin:1x", "aa=0", "aa=-3", "aa=4x",
         "aa=adaptive", "aa=adaptive:", "aa=adaptive:0.1", "aa=adaptive:0.1,", "aa=adaptive:0,8",
         "aa=adaptive:inf,8", "aa=adaptive:0.1,4", "aa=adaptive:0.1,8,", "depth=-1", "depth=1025",
-        "depth=1.5", "cutoff=-1", "cutoff=2", "cutoff=nan", "cutoff=", "shere=robust", "=",
+        "depth=1.5", "error=-1", "error=1/0", "error=1/", "error=nan", "error=inf",
+        "error=1e-9", "error=1e9", "error=1/255x", "cutoff=-1", "cutoff=2", "cutoff=nan", "cutoff=", "shere=robust", "=",
         "sphere", ""};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         struct turner_settings settings = standard(), before = settings;

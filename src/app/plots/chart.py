@@ -30,6 +30,8 @@ plt.rcParams.update({
 class Point:
     def __init__(self, point, metric, scene_methods):
         self.methods = point["methods"]
+        on_demand = float(self.methods.get("error", 0)) > 0
+        self.aa = "error" if on_demand else self.methods["aa"]
         self.label = point["label"]
         seconds = point["seconds"]
         self.time = seconds["median"]
@@ -42,12 +44,14 @@ class Point:
 # ---- colours: one for each kind of anti-aliasing ----
 
 def aa_order(aa):
-    return ("adaptive" in aa, [float(x) for x in aa.replace("adaptive:", "").split(",")][::-1])
+    if aa == "error":
+        return (2,)
+    return (int("adaptive" in aa), [float(x) for x in aa.replace("adaptive:", "").split(",")][::-1])
 
 
 def aa_styles(points):
-    kinds = sorted({p.methods["aa"] for p in points}, key=aa_order)
-    regular = [kind for kind in kinds if "adaptive" not in kind]
+    kinds = sorted({p.aa for p in points}, key=aa_order)
+    regular = [kind for kind in kinds if "adaptive" not in kind and kind != "error"]
     other = [kind for kind in kinds if "adaptive" in kind]
     cool, warm = matplotlib.colormaps["viridis"], matplotlib.colormaps["autumn"]
     styles = {}
@@ -55,10 +59,14 @@ def aa_styles(points):
         styles[kind] = (cool(0.85 * i / max(1, len(regular) - 1)), "o")
     for i, kind in enumerate(other):
         styles[kind] = (warm(0.15 + 0.6 * i / max(1, len(other) - 1)), "D")
+    if "error" in kinds:
+        styles["error"] = ("#c0178a", "*")
     return styles
 
 
 def aa_name(kind):
+    if kind == "error":
+        return "error on demand"
     if "adaptive" in kind:
         threshold, most = kind.replace("adaptive:", "").split(",")
         return f"adaptive: over {float(threshold):g}, ≤ {most}"
@@ -258,7 +266,7 @@ def draw_bounds(axes, chart, metric, ylim):
 
 def draw_points(axes, points, styles, own):
     for p in points:
-        color, marker = styles[p.methods["aa"]]
+        color, marker = styles[p.aa]
         told = not own or p.error > own
         axes.plot([p.low, p.high], [p.shown, p.shown], color=color, linewidth=1.4, alpha=0.6,
                   zorder=3, solid_capstyle="butt")
