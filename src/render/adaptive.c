@@ -12,6 +12,7 @@
 #define EDGE_MAX 128              /* of a tile, in pixels */
 #define TILE_SAMPLES (1 << 22)    /* that a tile may come to take, where pixels take the most */
 #define LEVEL_MAX 12
+#define FIRST_CELLS 16           /* that a pixel is divided into at least, for an error */
 #define FLOAT_BITS 24
 #define SPLIT_SHARE 0.25f         /* of the most that a cell of the pixel adds */
 #define SAMPLING_LEAST 0.25f      /* of the error asked for */
@@ -115,10 +116,12 @@ static float mark_by_error(const struct picture *picture, const struct turner_pa
     /* what sampling may take; more samples do not help against the rest */
     float asked = (float)picture->renderer->settings.error;
     float left = fmaxf(asked - estimate.cut - estimate.rounding, SAMPLING_LEAST * asked);
-    if (patch->count > 1 && fmaxf(estimate.sampling + estimate.hidden, estimate.look) <= left)
+    bool first = patch->count < FIRST_CELLS;
+    if (!first && fmaxf(estimate.sampling + estimate.hidden, estimate.look) <= left)
         return total;
     for (size_t i = 0; i < patch->count; i++)
-        cells[i].split = cells[i].level < picture->level_max && cells[i].measure >= SPLIT_SHARE * most;
+        cells[i].split = cells[i].level < picture->level_max &&
+                         (first || cells[i].measure >= SPLIT_SHARE * most);
     return total;
 }
 

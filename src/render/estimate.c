@@ -7,17 +7,19 @@
 #define REST 0.05f       /* of bends that cancel */
 #define EDGE 2.2f        /* of bends that are independent: more than four deviations of 0.5 */
 #define STRAIGHT 0.65f   /* of the bends along an edge that runs as the squares do */
-#define STRAIGHT_LEAST 0.45f /* where squares differ */
+#define STRAIGHT_LEAST 0.45f /* where squares differ, along lines */
+#define STRAIGHT_AREA 0.25f  /* where they fill the pixel */
 #define SHRINKS 0.35f    /* of its parent's bend: a smooth square's is a quarter */
 #define EVEN 4.0f        /* times its own, that bends may reach around a smooth square */
 #define STEADY 0.7f      /* of its own, that bends around a smooth square may differ from it */
+#define SAFETY 1.25f     /* what the truth goes beyond all this on one pixel of a thousand */
 #define LOOK 0.05f       /* of the greatest bend in the neighbours, that is worth a second look */
 #define FARTHER 0.5f     /* of a bend in the pixel beyond that */
 #define ROUNDING 6e-7f   /* of the radiance */
 #define ROUNDING_PLACE 4e-7f /* of the picture's size, that rounding moves a ray by */
 
 /* Of the greatest bend around, what a square of each level may hide. */
-static const float hidden_share[] = {0.5f, 0.2f, 0.012f, 0.0015f};
+static const float hidden_share[] = {0.5f, 0.2f, 0.018f, 0.0022f};
 #define HIDDEN_LEVELS 3
 
 float turner_estimate_total(const struct turner_estimate *estimate)
@@ -145,7 +147,7 @@ static float look_in(int level, const struct turner_surroundings *around)
 
 /* Bends of squares that an edge or disorder runs through. */
 struct disorder {
-    float sum, squares;
+    float sum, squares, area;
     int count;
 };
 
@@ -156,8 +158,8 @@ static float error_of_disorder(const struct disorder *d)
     /* 1 where all are the same, as along an edge that meets every square in the same way */
     float alike = d->sum * d->sum / ((float)d->count * d->squares);
     alike *= alike;
-    return fmaxf(EDGE * sqrtf(d->squares),
-                 fmaxf(STRAIGHT * alike * alike, STRAIGHT_LEAST) * d->sum);
+    float least = STRAIGHT_LEAST + d->area * (STRAIGHT_AREA - STRAIGHT_LEAST);
+    return fmaxf(EDGE * sqrtf(d->squares), fmaxf(STRAIGHT * alike * alike, least) * d->sum);
 }
 
 struct turner_estimate turner_estimate_pixel(const struct turner_cells *cells,
@@ -183,6 +185,7 @@ struct turner_estimate turner_estimate_pixel(const struct turner_cells *cells,
         } else if (part > 0) {
             disorder.sum += part;
             disorder.squares += part * part;
+            disorder.area += area;
             disorder.count++;
         }
         cell->measure = fmaxf(part * (smooth ? SMOOTH : EDGE),
@@ -195,6 +198,7 @@ struct turner_estimate turner_estimate_pixel(const struct turner_cells *cells,
     e.sampling = fmaxf(SMOOTH * largest(sum), error_of_disorder(&disorder)) + REST * rest;
     if (patch->count == 1) /* where one bend vanishes, others around do not */
         e.sampling += SMOOTH * around->change;
+    e.sampling *= SAFETY;
     e.cut = value[3] * scale->bound;
     e.rounding = ROUNDING * largest(value) + ROUNDING_PLACE * scale->size * place;
     return e;

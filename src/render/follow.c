@@ -18,6 +18,34 @@ void turner_follow_settings(struct turner_settings *settings, bool branches)
     settings->spp = TURNER_ERROR_SAMPLES;
 }
 
+static float most_of(struct turner_vec3 v)
+{
+    return (float)fmax(v.x, fmax(v.y, v.z));
+}
+
+static float most_of_environment(const struct turner_scene *scene)
+{
+    const struct turner_texture_image *image = &scene->texture_images[scene->background.image];
+    size_t count = (size_t)image->width * (size_t)image->height * 3;
+    float most = 0;
+    for (size_t i = 0; i < count; i++)
+        most = fmaxf(most, image->rgb[i]);
+    return most * most_of(scene->background.scale);
+}
+
+float turner_follow_glow(const struct turner_scene *scene)
+{
+    const struct turner_background *background = &scene->background;
+    float most = most_of(background->color);
+    if (background->kind == TURNER_BACKGROUND_GRADIENT)
+        most = fmaxf(most, most_of(background->top));
+    if (background->kind == TURNER_BACKGROUND_ENVIRONMENT)
+        most = most_of_environment(scene);
+    for (size_t i = 0; i < scene->material_count; i++)
+        most = fmaxf(most, most_of(scene->materials[i].k_e));
+    return most;
+}
+
 enum turner_result turner_follow_bound(float *bound, struct turner_renderer *renderer)
 {
     const struct turner_settings *settings = &renderer->settings;
@@ -32,7 +60,7 @@ enum turner_result turner_follow_bound(float *bound, struct turner_renderer *ren
     }
     TURNER_TRY_DONE(turner_renderer_trace(renderer, settings->depth, settings->cutoff,
                                           (const float(*)[2])positions, columns * rows, values));
-    *bound = 0;
+    *bound = renderer->glow;
     for (size_t i = 0; i < columns * rows; i++) {
         for (int c = 0; c < 3; c++)
             *bound = isfinite(values[i][c]) ? fmaxf(*bound, values[i][c]) : *bound;

@@ -197,6 +197,7 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
     renderer->needs = turner_needs_of(&deep);
     renderer->needs.pixel_counts = turner_layers_want(options->layers, TURNER_LAYERS_OF_RAYS);
     renderer->settings = deep.settings;
+    renderer->glow = turner_follow_glow(scene);
     renderer->tile = options->tile;
     enum turner_result result = create(renderer, kernel, &deep, options, statistics);
     if (result != TURNER_OK)

@@ -226,7 +226,7 @@ static void settings(void **state)
         {SETTINGS("@\"Depth\": 3"),
          "unknown key \"Depth\", did you mean \"depth\"? (at $.settings.Depth)"},
         {SETTINGS("@\"a\\u001bb\\nc\": 3"),
-         "unknown key \"a?b?c\"; known for settings: \"size\", \"depth\", \"cutoff\", \"spp\", "
+         "unknown key \"a?b?c\"; known for settings: \"size\", \"depth\", \"cutoff\", \"error\", \"spp\", "
          "\"shading\", \"shadows\", \"exposure\", \"transfer\", \"spd_rays\", \"spd_grid\", \"methods\" (at "
          "$.settings[\"a?b?c\"])"},
     };
