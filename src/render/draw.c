@@ -1,5 +1,6 @@
 /* Tracing: tiles of the picture or lists of samples, in pieces of bounded time, and the picture made
  * of them. */
+#include <assert.h>
 #include <string.h>
 
 #include "render/adaptive.h"
@@ -65,6 +66,7 @@ static enum turner_result trace_list(struct turner_renderer *renderer, int depth
 {
     const uint32_t group = TURNER_WORKGROUP * TURNER_WORKGROUP;
     struct turner_gpu_dispatch push = dispatch_of(renderer);
+    assert(count <= TURNER_LIST_MAX);
     push.positions = renderer->positions.address;
     push.count = (uint32_t)count;
     push.max_depth = (uint32_t)depth;
@@ -91,19 +93,18 @@ enum turner_result turner_renderer_trace_counted(struct turner_renderer *rendere
                                                  struct turner_gpu_pixel_counts *counts)
 {
     for (size_t done = 0; done < count;) {
-        size_t size = renderer->list ? renderer->list : LIST_FIRST;
-        bool whole = count - done >= size;
-        if (!whole)
-            size = count - done;
+        size_t piece = renderer->list ? renderer->list : LIST_FIRST;
+        bool whole = count - done >= piece;
+        size_t size = whole ? piece : count - done;
         double start = turner_seconds();
         TURNER_TRY(trace_list(renderer, depth, cutoff, positions + done, size, results + done,
                               counts ? counts + done : NULL));
         double seconds = turner_seconds() - start;
         done += size;
-        if (seconds > SECONDS_LONG && size > LIST_MIN)
-            renderer->list = size / 2;
-        else if (seconds < SECONDS_SHORT && whole && size < TURNER_LIST_MAX)
-            renderer->list = size * 2;
+        if (seconds > SECONDS_LONG && piece > LIST_MIN)
+            renderer->list = piece / 2;
+        else if (seconds < SECONDS_SHORT && whole)
+            renderer->list = piece < TURNER_LIST_MAX / 2 ? piece * 2 : TURNER_LIST_MAX;
     }
     return TURNER_OK;
 }

@@ -161,12 +161,39 @@ static void tiles_leave_no_trace(void **state)
     turner_scene_destroy(scene);
 }
 
+/* Lists are traced in pieces whose size follows the time they take; it stays within the buffers
+ * whatever it was before. */
+static void pieces_fit_their_buffers(void **state)
+{
+    (void)state;
+    enum { COUNT = 4 * TURNER_LIST_MAX };
+    struct turner_scene *scene = scene_of(SCENE_HEAD ", \"background\": 0.5}");
+    scene->settings.aa_threshold = 0.05;
+    const struct turner_render_options options = {0};
+    struct turner_statistics statistics = {0};
+    struct turner_renderer renderer;
+    assert_ok(turner_renderer_create(&renderer, &rig.gpu, &rig.kernels[BVH], scene, &options,
+                                     &statistics));
+    float(*positions)[2] = calloc(COUNT, sizeof *positions);
+    float(*results)[4] = calloc(COUNT, sizeof *results);
+    renderer.list = TURNER_LIST_MAX / 2 + 4001;
+    assert_ok(turner_renderer_trace(&renderer, 8, 0, (const float(*)[2])positions, COUNT, results));
+    assert_true(renderer.list <= TURNER_LIST_MAX);
+    for (size_t i = 0; i < COUNT; i++)
+        assert_true(results[i][0] == 0.5f);
+    free(positions);
+    free(results);
+    turner_renderer_destroy(&renderer);
+    turner_scene_destroy(scene);
+}
+
 int main(void)
 {
     rig_open(&rig);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(is_whitteds_rule),
         cmocka_unit_test(tiles_leave_no_trace),
+        cmocka_unit_test(pieces_fit_their_buffers),
     };
     return rig_close(&rig, cmocka_run_group_tests(tests, NULL, NULL));
 }
