@@ -102,6 +102,7 @@ static enum turner_result apply(const struct arguments *a, struct turner_scene *
     struct turner_settings *s = &scene->settings;
     for (size_t i = 0; i < a->method_count; i++)
         TURNER_TRY(turner_method_assign(s, a->methods[i]));
+    s->error = 0; /* one tree, of the depth and cutoff that are given: both sides can follow it */
     if (a->width)
         s->width = a->width, s->height = a->height;
     if (a->depth >= 0)
