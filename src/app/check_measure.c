@@ -279,8 +279,8 @@ static enum turner_result prepare_folder(const char *folder)
 {
     char path[4096];
     if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-        return turner_fail(TURNER_OUTPUT, "cannot make the folder \"%s\": %s; choose another", folder,
-                           strerror(errno));
+        return turner_fail(TURNER_OUTPUT, "cannot make the folder \"%s\": %s; choose another",
+                           folder, strerror(errno));
     snprintf(path, sizeof path, "%s/needs.csv", folder);
     return turner_atomic_check(path);
 }

@@ -187,8 +187,8 @@ static bool print_row(const struct turner_stability_row *row, bool quiet)
 static enum turner_result make_folder(const char *folder)
 {
     if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-        return turner_fail(TURNER_OUTPUT, "cannot make the folder \"%s\": %s; choose another", folder,
-                           strerror(errno));
+        return turner_fail(TURNER_OUTPUT, "cannot make the folder \"%s\": %s; choose another",
+                           folder, strerror(errno));
     return TURNER_OK;
 }
 
