@@ -25,8 +25,9 @@ struct picture {
     struct turner_lattice lattice;
     struct turner_cells cells;
     int level_max; /* positions are exact in float that far */
-    double samples, errors; /* sums over pixels */
+    double samples; /* sum over pixels */
     struct turner_scale scale; /* where an error is asked for */
+    float *errors;  /* the same, or NULL: the estimate of each pixel */
 };
 
 struct tile {
@@ -115,9 +116,10 @@ static float mark_by_error(const struct picture *picture, const struct turner_pa
     }
     /* what sampling may take; more samples do not help against the rest */
     float asked = (float)picture->renderer->settings.error;
-    float left = fmaxf(asked - estimate.cut - estimate.rounding, SAMPLING_LEAST * asked);
+    float left = fmaxf(asked - estimate.cut - estimate.methods - estimate.rounding,
+                       SAMPLING_LEAST * asked);
     bool first = patch->count < FIRST_CELLS;
-    if (!first && fmaxf(estimate.sampling + estimate.hidden, estimate.look) <= left)
+    if (!first && fmaxf(turner_estimate_of_samples(&estimate), estimate.look) <= left)
         return total;
     for (size_t i = 0; i < patch->count; i++)
         cells[i].split = cells[i].level < picture->level_max &&
@@ -137,11 +139,29 @@ static void finish(struct picture *picture, const struct turner_patch *patch, fl
         statistics->samples_max = patch->samples;
     if (turner_layers_want(picture->layers, 1u << TURNER_LAYER_SAMPLES))
         picture->layers->whole[TURNER_LAYER_SAMPLES][at] = (uint32_t)patch->samples;
-    picture->errors += (double)error;
-    statistics->error_max = fmax(statistics->error_max, (double)error);
-    statistics->error_missed += (double)error > picture->renderer->settings.error;
-    if (turner_layers_want(picture->layers, 1u << TURNER_LAYER_ERROR))
-        picture->layers->real[TURNER_LAYER_ERROR][at] = error;
+    if (picture->errors)
+        picture->errors[at] = error;
+}
+
+/* What is said of the errors is said of the pooled ones. */
+static void finish_errors(struct picture *picture)
+{
+    struct turner_statistics *statistics = picture->statistics;
+    int width = picture->image->width, height = picture->image->height;
+    size_t pixels = (size_t)width * (size_t)height;
+    bool wanted = turner_layers_want(picture->layers, 1u << TURNER_LAYER_ERROR);
+    float *pooled = wanted ? picture->layers->real[TURNER_LAYER_ERROR]
+                           : turner_calloc(pixels, sizeof *pooled);
+    double sum = 0;
+    turner_estimate_pool(pooled, picture->errors, width, height);
+    for (size_t i = 0; i < pixels; i++) {
+        sum += (double)pooled[i];
+        statistics->error_max = fmax(statistics->error_max, (double)pooled[i]);
+        statistics->error_missed += (double)pooled[i] > picture->renderer->settings.error;
+    }
+    statistics->error_mean = sum / (double)pixels;
+    if (!wanted)
+        free(pooled);
 }
 
 static void finish_counts(const struct picture *picture, const struct turner_patch *patch)
@@ -194,6 +214,54 @@ static bool mark(struct picture *picture, const struct turner_patch *patch, floa
     return any;
 }
 
+/* The most that a sample in the 3×3 pixels is off from what accurate methods find there. */
+static float approximation_around(struct turner_lattice *lattice, const float (*accurate)[4], int x,
+                                  int y)
+{
+    struct turner_cell cell;
+    float most = 0;
+    for (int i = 0; i < 9; i++) {
+        turner_cells_first(&cell, lattice, x + i % 3 - 1, y + i / 3 - 1);
+        for (int k = 0; k < TURNER_CELL_SAMPLES; k++) {
+            uint32_t sample = k < 4 ? cell.corner[k] : cell.center;
+            for (int c = 0; c < 3; c++)
+                most = fmaxf(most, fabsf(lattice->values[sample][c] - accurate[sample][c]));
+        }
+    }
+    return most;
+}
+
+/* Traces all samples there are again by accurate methods. */
+static enum turner_result find_approximations(struct picture *picture)
+{
+    struct turner_cells *cells = &picture->cells;
+    struct turner_lattice accurate = picture->lattice; /* the same places */
+    double unused;
+    accurate.counted = false;
+    accurate.traced = 0;
+    accurate.values = turner_calloc(accurate.count, sizeof *accurate.values);
+    enum turner_result result = turner_follow(&accurate, picture->renderer->accurate,
+                                              picture->scale.bound, &unused);
+    for (size_t i = 0; i < cells->patch_count && result == TURNER_OK; i++) {
+        struct turner_patch *patch = &cells->patches[i];
+        patch->around.methods = approximation_around(
+            &picture->lattice, (const float(*)[4])accurate.values, patch->x, patch->y);
+    }
+    free(accurate.values);
+    return result;
+}
+
+/* What can be told of the pixels from their first cells. */
+static enum turner_result look_around(struct picture *picture)
+{
+    struct turner_cells *cells = &picture->cells;
+    for (size_t i = 0; i < cells->patch_count; i++) {
+        struct turner_patch *patch = &cells->patches[i];
+        patch->around = turner_surroundings_of(&picture->lattice, patch->x, patch->y);
+    }
+    return picture->renderer->accurate ? find_approximations(picture) : TURNER_OK;
+}
+
 static enum turner_result draw_tile(struct picture *picture, struct tile tile)
 {
     struct turner_cells *cells = &picture->cells;
@@ -209,10 +277,8 @@ static enum turner_result draw_tile(struct picture *picture, struct tile tile)
     for (bool first = true; cells->patch_count; first = false) {
         TURNER_TRY(turner_follow(&picture->lattice, picture->renderer, picture->scale.bound,
                                  &picture->statistics->cutoff_least));
-        for (size_t i = 0; i < cells->patch_count && first && on_demand; i++) {
-            struct turner_patch *patch = &cells->patches[i];
-            patch->around = turner_surroundings_of(&picture->lattice, patch->x, patch->y);
-        }
+        if (first && on_demand)
+            TURNER_TRY(look_around(picture));
         for (size_t i = 0; i < cells->patch_count; i++) {
             float error;
             if (mark(picture, &cells->patches[i], &error))
@@ -270,7 +336,8 @@ static enum turner_result draw(struct picture *picture, const struct turner_rend
         }
     }
     picture->statistics->samples_mean = picture->samples / pixels;
-    picture->statistics->error_mean = picture->errors / pixels;
+    if (picture->errors)
+        finish_errors(picture);
     return TURNER_OK;
 }
 
@@ -290,6 +357,10 @@ enum turner_result turner_adaptive_draw(struct turner_renderer *renderer,
     statistics->cutoff_least = renderer->settings.cutoff;
     picture.scale.size = (float)(image->width > image->height ? image->width : image->height);
     picture.cells.lattice = &picture.lattice;
+    picture.cells.jittered = renderer->settings.error > 0;
+    if (renderer->settings.error > 0)
+        picture.errors = turner_calloc((size_t)image->width * (size_t)image->height,
+                                       sizeof *picture.errors);
     turner_lattice_create(&picture.lattice, picture.level_max + 1);
     picture.lattice.counted = renderer->needs.pixel_counts;
     double start = turner_seconds();
@@ -297,5 +368,6 @@ enum turner_result turner_adaptive_draw(struct turner_renderer *renderer,
     statistics->seconds_trace += turner_seconds() - start;
     turner_cells_destroy(&picture.cells);
     turner_lattice_destroy(&picture.lattice);
+    free(picture.errors);
     return result;
 }

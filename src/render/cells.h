@@ -1,5 +1,7 @@
-/* Pixels divided into squares, and those into four again where it pays: the samples of a square are
- * its corners and its centre. Whitted, An Improved Illumination Model, CACM 23 (1980), section 5. */
+/* Pixels divided into four cells, and those again where it pays: the samples of a cell are its corners
+ * and its centre. Whitted, An Improved Illumination Model, CACM 23 (1980), section 5, has squares.
+ * Jittered cells are quadrilaterals: an edge is divided not in its middle but near it, nobody knows
+ * where. Edges of what is seen then meet no two cells in the same way, and errors are independent. */
 #ifndef TURNER_RENDER_CELLS_H
 #define TURNER_RENDER_CELLS_H
 
@@ -10,8 +12,10 @@
 
 struct turner_cell {
     uint32_t corner[4]; /* samples: top left, top right, bottom left, bottom right */
-    uint32_t center;
-    uint16_t x, y;      /* from the pixel's top left, in its own edge lengths, 2^−level pixels */
+    uint32_t center;    /* of gravity */
+    float area;         /* in pixels */
+    float weight[4];    /* of the corners; their sum is 1, their mean the centre */
+    uint16_t x, y;      /* from the pixel's top left, in its own edge lengths, 2^−level pixels, were it a square */
     uint8_t level;
     bool split;         /* to be divided next */
     float measure;      /* for whoever decides */
@@ -22,10 +26,9 @@ struct turner_cell {
 /* Bends of squares. */
 struct turner_surroundings {
     float own;    /* of the pixel */
-    float most;   /* of it, of the four that stand on their corner across its sides, and
-                     the median around it */
-    float median; /* of the eight pixels around */
-    float far;    /* the greatest of them; those beyond count half */
+    float most;   /* that it may have, going by those around */
+    float crowd;  /* that at least a few of the 5×5 pixels around it have */
+    float methods; /* what approximate methods change in a sample of it, at most */
     float change; /* the median of their differences from the pixel's own */
 };
 
@@ -40,6 +43,7 @@ struct turner_patch {
 /* Patches and their cells; cells of one patch lie together, in the order of their divisions. */
 struct turner_cells {
     struct turner_lattice *lattice; /* not owned */
+    bool jittered;
     struct turner_patch *patches;
     struct turner_cell *cells, *next;
     size_t patch_count, patch_capacity, cell_count, cell_capacity, next_count, next_capacity;
@@ -56,8 +60,8 @@ void turner_cells_first(struct turner_cell *cell, struct turner_lattice *lattice
 /* Divides every cell with `split`; patches without one are finished and left out. */
 void turner_cells_divide(struct turner_cells *cells);
 
-/* The picture's value there: over the pixel, of the means of each square's centre and the mean of
- * its corners. */
+/* The picture's value there: over the pixel, of the means of each cell's centre and the weighted mean
+ * of its corners. */
 void turner_cells_value(float value[4], const struct turner_cells *cells,
                         const struct turner_patch *patch);
 

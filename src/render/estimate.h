@@ -7,16 +7,20 @@
 
 /* Radiance, in the channel where it is most. */
 struct turner_estimate {
-    float sampling; /* what the squares of samples are wrong by */
+    float sampling; /* what the cells are wrong by */
     float hidden;   /* what no sample saw, going by what is around */
     float look;     /* not part of it: where this is much, more samples are worth their while */
     float cut;      /* rays that were not followed */
+    float methods;  /* approximations that were chosen (turner_methods_approximate) */
     float rounding;
 };
 
+/* What more samples help against: `sampling` and `hidden`, of which rarely both are there. */
+float turner_estimate_of_samples(const struct turner_estimate *estimate);
+
 float turner_estimate_total(const struct turner_estimate *estimate);
 
-/* What is around the pixel; the first squares of the 5×5 pixels around it are traced. */
+/* What is around the pixel; the first cells of the 5×5 pixels around it are traced. */
 struct turner_surroundings turner_surroundings_of(struct turner_lattice *lattice, int x, int y);
 
 /* Of a whole picture. */
@@ -29,5 +33,9 @@ struct turner_scale {
 struct turner_estimate turner_estimate_pixel(const struct turner_cells *cells,
                                              const struct turner_patch *patch,
                                              const struct turner_scale *scale);
+
+/* Estimates of all pixels of a picture (width × height), of which one that is far below those around
+ * it is raised: a pixel seldom has so much less to it. */
+void turner_estimate_pool(float *pooled, const float *errors, int width, int height);
 
 #endif

@@ -29,6 +29,11 @@ void turner_lattice_clear(struct turner_lattice *lattice)
     lattice->count = lattice->traced = 0;
 }
 
+static uint64_t key_of(int32_t x, int32_t y)
+{
+    return ((uint64_t)(uint32_t)y << 32 | (uint32_t)x) + 1;
+}
+
 /* The slot of a key, or the empty one where it belongs. */
 static size_t slot_of(const struct turner_lattice *lattice, uint64_t key)
 {
@@ -65,21 +70,29 @@ static void grow(struct turner_lattice *lattice)
     free(old_indices);
 }
 
-uint32_t turner_lattice_at(struct turner_lattice *lattice, int32_t x, int32_t y)
+uint32_t turner_lattice_at(struct turner_lattice *lattice, int32_t x, int32_t y,
+                           const float position[2])
 {
     if (lattice->count == lattice->capacity)
         grow(lattice);
-    uint64_t key = ((uint64_t)(uint32_t)y << 32 | (uint32_t)x) + 1;
+    uint64_t key = key_of(x, y);
     size_t slot = slot_of(lattice, key);
     if (!lattice->keys[slot]) {
-        float unit = 1.0f / (float)(1u << lattice->shift);
         lattice->keys[slot] = key;
         lattice->indices[slot] = (uint32_t)lattice->count;
-        lattice->positions[lattice->count][0] = (float)x * unit;
-        lattice->positions[lattice->count][1] = (float)y * unit;
+        memcpy(lattice->positions[lattice->count], position, sizeof *lattice->positions);
         if (lattice->counted)
             lattice->counts[lattice->count] = (struct turner_gpu_pixel_counts){0};
         lattice->count++;
     }
     return lattice->indices[slot];
+}
+
+bool turner_lattice_find(const struct turner_lattice *lattice, int32_t x, int32_t y,
+                         uint32_t *index)
+{
+    uint64_t key = key_of(x, y);
+    size_t slot = slot_of(lattice, key);
+    *index = lattice->indices[slot];
+    return lattice->keys[slot] == key;
 }

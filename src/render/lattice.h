@@ -1,4 +1,5 @@
-/* Samples at dyadic places of the picture, each traced once however many cells meet there. */
+/* Samples of dyadic places of the picture, each traced once however many cells meet there. They lie
+ * at those places or near them. */
 #ifndef TURNER_RENDER_LATTICE_H
 #define TURNER_RENDER_LATTICE_H
 
@@ -22,7 +23,12 @@ void turner_lattice_destroy(struct turner_lattice *lattice);
 /* Forgets all samples. */
 void turner_lattice_clear(struct turner_lattice *lattice);
 
-/* The sample at a place, a new one if there was none; (−1, −1) is none. */
-uint32_t turner_lattice_at(struct turner_lattice *lattice, int32_t x, int32_t y);
+/* The sample of a place, a new one at that position if there was none; (−1, −1) is none. */
+uint32_t turner_lattice_at(struct turner_lattice *lattice, int32_t x, int32_t y,
+                           const float position[2]);
+
+/* Whether there is a sample of a place; sets its index. */
+bool turner_lattice_find(const struct turner_lattice *lattice, int32_t x, int32_t y,
+                         uint32_t *index);
 
 #endif

@@ -11,6 +11,7 @@
 #include "render/adaptive.h"
 #include "render/follow.h"
 #include "render/layers.h"
+#include "scene/methods.h"
 
 double turner_seconds(void)
 {
@@ -179,6 +180,25 @@ static enum turner_result create(struct turner_renderer *renderer,
     return TURNER_OK;
 }
 
+static enum turner_result create_accurate(struct turner_renderer *renderer,
+                                          const struct turner_kernel *kernel,
+                                          const struct turner_scene *scene,
+                                          const struct turner_render_options *options,
+                                          struct turner_statistics *statistics)
+{
+    struct turner_statistics own = {0};
+    struct turner_scene copy = *scene;
+    if (!turner_methods_approximate(&copy.settings.methods, &scene->settings.methods))
+        return TURNER_OK;
+    renderer->accurate = turner_calloc(1, sizeof *renderer->accurate);
+    TURNER_TRY(turner_renderer_create(renderer->accurate, renderer->gpu, kernel, &copy, options,
+                                      &own));
+    statistics->seconds_build += own.seconds_build;
+    statistics->seconds_compile += own.seconds_compile;
+    statistics->seconds_upload += own.seconds_upload;
+    return TURNER_OK;
+}
+
 enum turner_result turner_renderer_create(struct turner_renderer *renderer, struct turner_gpu *gpu,
                                           const struct turner_kernel *kernel,
                                           const struct turner_scene *scene,
@@ -200,6 +220,8 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
     renderer->glow = turner_follow_glow(scene);
     renderer->tile = options->tile;
     enum turner_result result = create(renderer, kernel, &deep, options, statistics);
+    if (result == TURNER_OK && scene->settings.error > 0)
+        result = create_accurate(renderer, kernel, scene, options, statistics);
     if (result != TURNER_OK)
         turner_renderer_destroy(renderer);
     return result;
@@ -210,6 +232,9 @@ void turner_renderer_destroy(struct turner_renderer *renderer)
     struct turner_gpu *gpu = renderer->gpu;
     if (!gpu)
         return;
+    if (renderer->accurate)
+        turner_renderer_destroy(renderer->accurate);
+    free(renderer->accurate);
     turner_buffer_destroy(gpu, &renderer->pixel_counts);
     turner_buffer_destroy(gpu, &renderer->counters);
     turner_buffer_destroy(gpu, &renderer->pixels);

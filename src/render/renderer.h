@@ -57,6 +57,8 @@ struct turner_renderer {
     struct turner_buffer counters;
     struct turner_buffer pixel_counts; /* as many as `pixels`, where needs.pixel_counts */
     struct turner_settings settings;
+    struct turner_renderer *accurate; /* an error is asked for and the methods are approximations:
+                                         the same scene by those that are not; else NULL */
     float glow;  /* the largest radiance that shows without a light: background and emission */
     int tile;    /* fixed edge in pixels, or 0: follows the time a tile takes */
     size_t list; /* samples of a list traced at once: follows the time they take */

@@ -243,3 +243,23 @@ void turner_method_text(char text[TURNER_METHOD_TEXT], const struct turner_setti
     else
         snprintf(text, TURNER_METHOD_TEXT, "%.17g", settings->cutoff);
 }
+
+bool turner_methods_approximate(struct turner_methods *accurate,
+                                const struct turner_methods *methods)
+{
+    *accurate = (struct turner_methods){
+        .tmin = methods->tmin,
+        .precision = methods->precision,
+        .traversal = methods->traversal,
+    };
+    if (methods->sphere == TURNER_SPHERE_DOUBLE)
+        accurate->sphere = TURNER_SPHERE_DOUBLE;
+    if (methods->fresnel == TURNER_OVERRIDE_EXACT)
+        accurate->fresnel = TURNER_OVERRIDE_EXACT;
+    for (size_t i = 0; i < sizeof choices / sizeof *choices; i++) {
+        size_t member = choices[i].member;
+        if (memcmp((char *)accurate + member, (const char *)methods + member, sizeof(int)) != 0)
+            return true;
+    }
+    return false;
+}

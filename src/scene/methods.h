@@ -36,6 +36,11 @@ enum turner_result turner_method_set(struct turner_settings *settings, const cha
 /* "name=value" in one. */
 enum turner_result turner_method_assign(struct turner_settings *settings, const char *assignment);
 
+/* Whether some of the methods are less accurate than there are: `accurate` gets the defaults in their
+ * place. What is a matter of taste, or as good, stays: traversal, doubles, exact Fresnel terms. */
+bool turner_methods_approximate(struct turner_methods *accurate,
+                                const struct turner_methods *methods);
+
 /* The value as turner_method_set takes it; `name` is one of the list. */
 void turner_method_text(char text[TURNER_METHOD_TEXT], const struct turner_settings *settings,
                         const char *name);

@@ -1,9 +1,11 @@
 /* How well the estimate of --error holds, against the truth of truth.h, and what it costs beside
  * fixed settings:
  *
- *   error_measure SCENE WIDTH HEIGHT ERROR [--truth FILE] [--fixed] [--share S] [--tight T]
+ *   error_measure SCENE WIDTH HEIGHT ERROR [--truth FILE] [--every N] [--fixed] [--share S]
+ *                 [--tight T] [--method NAME=VALUE]
  *
- * --truth keeps the truth in a file (.exr) for the next time. --fixed looks for the smallest regular
+ * --truth keeps the truth in a file (.exr) for the next time. --every looks at one pixel in N across
+ * and down. --fixed looks for the smallest regular
  * setting that is as close to the truth on as many pixels, and says how long that takes. Prints one
  * line; exit status 1 when the estimate is a bound on less than the share S of the pixels (0.999), or
  * more than T times (10) the true error, or the spacing of floats there, on the median pixel. */
@@ -15,15 +17,16 @@
 #include "base/memory.h"
 #include "render/layers.h"
 #include "render/renderer.h"
+#include "scene/methods.h"
 #include "truth.h"
 
 #define SHARE 0.999
 #define SPP_LEAST 4 /* of the grid of fixed settings */
-#define TRUTH_TOLERANCE 0.01 /* of the error asked for, that a square of the truth may be off by */
+#define TRUTH_TOLERANCE 0.0025 /* of the error asked for, that a square of the truth may be off by */
 
 struct arguments {
-    const char *scene, *truth;
-    int width, height;
+    const char *scene, *truth, *method;
+    int width, height, every;
     double error, share, tight;
     bool fixed;
 };
@@ -50,11 +53,19 @@ static double quantile(double *values, size_t count, double share)
     return values[at > 0 ? at - 1 : 0];
 }
 
+/* The picture's pixel that is the i-th of the truth. */
+static size_t pixel_of(const struct truth *truth, const struct turner_image *image, size_t i)
+{
+    size_t every = (size_t)truth->every, width = (size_t)truth->width;
+    return (i / width * every + every / 2) * (size_t)image->width + i % width * every + every / 2;
+}
+
 static double true_error(const struct truth *truth, const struct turner_image *image, size_t i)
 {
+    const float *pixel = image->rgba + 4 * pixel_of(truth, image, i);
     double worst = 0;
     for (int c = 0; c < 3; c++)
-        worst = fmax(worst, fabs((double)image->rgba[4 * i + (size_t)c] - truth->radiance[i][c]));
+        worst = fmax(worst, fabs((double)pixel[c] - truth->radiance[i][c]));
     return worst;
 }
 
@@ -86,8 +97,9 @@ static struct result measure(const struct turner_scene *scene, const struct trut
     const float *estimates = layers.real[TURNER_LAYER_ERROR];
     for (size_t i = 0; i < count; i++) {
         errors[i] = true_error(truth, &image, i);
-        bounded += errors[i] <= (double)estimates[i];
-        ratios[i] = (double)estimates[i] / fmax(errors[i], resolution(truth, i));
+        double estimate = (double)estimates[pixel_of(truth, &image, i)];
+        bounded += errors[i] <= estimate;
+        ratios[i] = estimate / fmax(errors[i], resolution(truth, i));
     }
     r.bound = (double)bounded / (double)count;
     r.tightness = quantile(ratios, count, 0.5);
@@ -161,7 +173,7 @@ static struct fixed find_fixed(const struct turner_scene *scene, const struct tr
 
 int main(int argc, char **argv)
 {
-    struct arguments a = {.share = SHARE, .tight = 10};
+    struct arguments a = {.every = 1, .share = SHARE, .tight = 10};
     if (argc < 5) {
         fprintf(stderr, "usage: error_measure SCENE WIDTH HEIGHT ERROR [--truth FILE] [--fixed]\n");
         return 2;
@@ -173,6 +185,10 @@ int main(int argc, char **argv)
     for (int i = 5; i < argc; i++) {
         if (strcmp(argv[i], "--truth") == 0 && i + 1 < argc)
             a.truth = argv[++i];
+        else if (strcmp(argv[i], "--every") == 0 && i + 1 < argc)
+            a.every = atoi(argv[++i]);
+        else if (strcmp(argv[i], "--method") == 0 && i + 1 < argc)
+            a.method = argv[++i];
         else if (strcmp(argv[i], "--share") == 0 && i + 1 < argc)
             a.share = atof(argv[++i]);
         else if (strcmp(argv[i], "--tight") == 0 && i + 1 < argc)
@@ -186,7 +202,9 @@ int main(int argc, char **argv)
     scene->settings.width = a.width;
     scene->settings.height = a.height;
     scene->settings.error = a.error;
-    require(truth_create(&truth, scene, TRUTH_TOLERANCE * a.error, a.truth));
+    require(truth_create(&truth, scene, a.every, TRUTH_TOLERANCE * a.error, a.truth));
+    if (a.method)
+        require(turner_method_assign(&scene->settings, a.method));
     if (a.fixed)
         measure(scene, &truth); /* has the driver compile the kernel */
     struct result r = measure(scene, &truth);

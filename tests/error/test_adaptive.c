@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "../render/render_test.h"
+#include "render/cells.h"
 
 #define WIDTH 24
 #define HEIGHT 18
@@ -139,14 +140,14 @@ static void is_whitteds_rule(void **state)
     follows_rule(0.5, 1000);  /* between the darker sphere and nothing there is no edge */
 }
 
-static void tiles_leave_no_trace(void **state)
+static void same_in_tiles(const char *path, double threshold, double error)
 {
-    (void)state;
     struct turner_scene *scene;
-    assert_ok(turner_scene_load(&scene, TURNER_SOURCE_DIR "/scenes/whitted1980.json"));
+    assert_ok(turner_scene_load(&scene, path));
     scene->settings.width = 64;
     scene->settings.height = 48;
-    scene->settings.aa_threshold = 0.05;
+    scene->settings.aa_threshold = threshold;
+    scene->settings.error = error;
     scene->settings.spp = 64;
     struct turner_image whole;
     draw(&rig, &whole, scene, BVH, NULL, NULL);
@@ -159,6 +160,56 @@ static void tiles_leave_no_trace(void **state)
     }
     turner_image_destroy(&whole);
     turner_scene_destroy(scene);
+}
+
+static void tiles_leave_no_trace(void **state)
+{
+    (void)state;
+    same_in_tiles(TURNER_SOURCE_DIR "/scenes/whitted1980.json", 0.05, 0);
+    same_in_tiles(TURNER_SOURCE_DIR "/scenes/metals.json", 0, 1.0 / 64);
+}
+
+/* However a pixel is divided, and wherever its edges are, its cells fill it, and what is linear has
+ * its true mean and no bend. */
+static void cells_are_exact_for_what_is_linear(void **state)
+{
+    (void)state;
+    struct turner_lattice lattice;
+    struct turner_cells cells = {.lattice = &lattice, .jittered = true};
+    uint32_t random = 1;
+    turner_lattice_create(&lattice, 13);
+    turner_cells_begin(&cells, 5, 3);
+    struct turner_patch patch = cells.patches[0];
+    for (int round = 0; round < 7; round++) {
+        for (size_t i = 0; i < cells.cell_count; i++) {
+            random = random * 1664525 + 1013904223;
+            cells.cells[i].split = i == 0 || random >> 31;
+        }
+        turner_cells_divide(&cells);
+        patch = cells.patches[0];
+    }
+    for (size_t i = 0; i < lattice.count; i++) {
+        for (int c = 0; c < 4; c++)
+            lattice.values[i][c] = (float)c + 2 * lattice.positions[i][0] - lattice.positions[i][1];
+    }
+    double area = 0;
+    for (size_t i = 0; i < cells.cell_count; i++) {
+        const struct turner_cell *cell = &cells.cells[i];
+        float corners = 0;
+        for (int k = 0; k < 4; k++)
+            corners += cell->weight[k] * lattice.values[cell->corner[k]][1];
+        assert_true(fabsf(corners - lattice.values[cell->center][1]) < 1e-5f);
+        assert_true(cell->area > 0);
+        area += (double)cell->area;
+    }
+    float value[4];
+    turner_cells_value(value, &cells, &patch);
+    printf("%zu cells, area %.9f, mean %.7f\n", cells.cell_count, area, (double)value[1]);
+    assert_true(cells.cell_count > 300);
+    assert_true(fabs(area - 1) < 1e-6);
+    assert_true(fabsf(value[1] - (1 + 2 * 5.5f - 3.5f)) < 1e-5f);
+    turner_cells_destroy(&cells);
+    turner_lattice_destroy(&lattice);
 }
 
 /* Lists are traced in pieces whose size follows the time they take; it stays within the buffers
@@ -193,6 +244,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(is_whitteds_rule),
         cmocka_unit_test(tiles_leave_no_trace),
+        cmocka_unit_test(cells_are_exact_for_what_is_linear),
         cmocka_unit_test(pieces_fit_their_buffers),
     };
     return rig_close(&rig, cmocka_run_group_tests(tests, NULL, NULL));

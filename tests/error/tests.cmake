@@ -20,17 +20,17 @@ set_target_properties(error_measure PROPERTIES LINKER_LANGUAGE CXX)
 
 # The estimate beside the truth: a bound on 99.9 % of the pixels, within a factor of 10 on the median
 # one. docs/error.md has more scenes, and which miss it.
-function(turner_error_test scene share tight)
-    get_filename_component(name ${scene} NAME_WE)
-    add_test(NAME error_${name} COMMAND error_measure ${scene} 64 48 0.00392157
-        --truth ${PROJECT_SOURCE_DIR}/tests/error/truth/${name}.exr --share ${share}
-        --tight ${tight})
-    set_tests_properties(error_${name} PROPERTIES SKIP_RETURN_CODE 77 LABELS device
-        ENVIRONMENT "TURNER_VALIDATION=1;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/error_${name}")
+function(turner_error_test test scene share tight)
+    add_test(NAME ${test} COMMAND error_measure ${PROJECT_SOURCE_DIR}/scenes/${scene}.json 64 48
+        0.00392157 --truth ${PROJECT_SOURCE_DIR}/tests/error/truth/${scene}.exr --share ${share}
+        --tight ${tight} ${ARGN})
+    set_tests_properties(${test} PROPERTIES SKIP_RETURN_CODE 77 LABELS device
+        ENVIRONMENT "TURNER_VALIDATION=1;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/${test}")
 endfunction()
-foreach(name IN ITEMS metals fresnel phong_terms lights attenuation underwater)
-    turner_error_test(${PROJECT_SOURCE_DIR}/scenes/${name}.json 0.999 10)
+foreach(name IN ITEMS metals fresnel phong_terms lights attenuation underwater mesh prism)
+    turner_error_test(error_${name} ${name} 0.999 10)
 endforeach()
+turner_error_test(error_of_schlick fresnel 0.999 10 --method fresnel=schlick)
 
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME error_command COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/command_error.py)

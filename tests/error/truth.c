@@ -12,9 +12,8 @@
 #include "image/image.h"
 #include "reference/trace.h"
 
-#define GRID 4        /* squares across a pixel that are looked at first */
-#define LEVEL_GRID 2
-#define LEVEL_LEAST 4 /* of a pixel in which one of them is not smooth */
+#define GRID 16       /* squares across a pixel that are looked at first */
+#define LEVEL_GRID 4
 #define LEVEL_MOST 9
 #define THREADS_MOST 16
 
@@ -73,9 +72,9 @@ static turner_vector integral(struct worker *worker, struct rectangle r, int lev
     bool fine = level >= LEVEL_MOST ||
                 difference(mean, center) * area <= worker->job->tolerance;
     /* corners that cancel are no reason to stop early */
-    for (int i = 0; i < 4 && level < LEVEL_LEAST + 2; i++)
+    for (int i = 0; i < 4 && level < LEVEL_GRID + 2; i++)
         fine = fine && difference(corner[i], center) * area <= 4 * worker->job->tolerance;
-    if (level >= LEVEL_LEAST && fine)
+    if (fine)
         return scale(add(scale(center, 2.0L / 3), scale(mean, 1.0L / 3)), area);
     double u = near_middle(&r), x[3] = {r.x, r.x + u * r.width, r.x + r.width};
     double v = 1 - u, y[3] = {r.y, r.y + v * r.height, r.y + r.height};
@@ -98,31 +97,20 @@ static turner_vector integral(struct worker *worker, struct rectangle r, int lev
 
 static turner_vector pixel(struct worker *worker, int px, int py)
 {
-    turner_vector corner[GRID + 1][GRID + 1], center[GRID][GRID], sum = grey(0);
-    bool smooth = true;
+    turner_vector corner[GRID + 1][GRID + 1], sum = grey(0);
     for (int y = 0; y <= GRID; y++) {
         for (int x = 0; x <= GRID; x++)
             corner[y][x] = sample(worker, px + (double)x / GRID, py + (double)y / GRID);
     }
-    for (int y = 0; y < GRID; y++) {
-        for (int x = 0; x < GRID; x++) {
-            center[y][x] = sample(worker, px + (x + 0.5) / GRID, py + (y + 0.5) / GRID);
-            turner_vector mean = scale(add(add(corner[y][x], corner[y][x + 1]),
-                                           add(corner[y + 1][x], corner[y + 1][x + 1])), 0.25L);
-            smooth = smooth && difference(mean, center[y][x]) <= 4 * worker->job->tolerance;
-            sum = add(sum, scale(add(scale(center[y][x], 2), mean), 1.0L / (3 * GRID * GRID)));
-        }
-    }
-    if (smooth)
-        return sum;
-    sum = grey(0);
     for (int i = 0; i < GRID * GRID; i++) {
         int x = i % GRID, y = i / GRID;
         const turner_vector corners[4] = {corner[y][x], corner[y][x + 1], corner[y + 1][x],
                                           corner[y + 1][x + 1]};
         struct rectangle part = {px + (double)x / GRID, py + (double)y / GRID, 1.0 / GRID,
                                  1.0 / GRID};
-        sum = add(sum, integral(worker, part, LEVEL_GRID, corners, center[y][x]));
+        sum = add(sum, integral(worker, part, LEVEL_GRID, corners,
+                                sample(worker, part.x + part.width / 2,
+                                       part.y + part.height / 2)));
     }
     return sum;
 }
@@ -133,7 +121,8 @@ static void *work(void *argument)
     struct truth *truth = worker->job->truth;
     for (int y; (y = atomic_fetch_add(&worker->job->next_row, 1)) < truth->height;) {
         for (int x = 0; x < truth->width; x++) {
-            turner_vector value = pixel(worker, x, y);
+            int first = truth->every / 2;
+            turner_vector value = pixel(worker, x * truth->every + first, y * truth->every + first);
             double *to = truth->radiance[(size_t)y * (size_t)truth->width + (size_t)x];
             to[0] = (double)value.x;
             to[1] = (double)value.y;
@@ -148,7 +137,7 @@ static void trace(struct truth *truth, const struct turner_scene *scene,
 {
     struct job job = {.scene = scene, .world = world, .truth = truth, .tolerance = tolerance};
     const struct turner_camera *camera = &scene->camera;
-    int rows = scene->settings.spd_grid ? truth->height - 2 : truth->height;
+    int rows = scene->settings.height - (scene->settings.spd_grid ? 2 : 0);
     struct worker workers[THREADS_MOST] = {0};
     pthread_t threads[THREADS_MOST];
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
@@ -210,14 +199,16 @@ done:
     return result;
 }
 
-enum turner_result truth_create(struct truth *truth, const struct turner_scene *scene,
+enum turner_result truth_create(struct truth *truth, const struct turner_scene *scene, int every,
                                 double tolerance, const char *cache)
 {
     struct turner_scene deep = *scene;
     deep.settings.depth = TRUTH_DEPTH;
     deep.settings.cutoff = TRUTH_CUTOFF;
     struct turner_world world = {0};
-    *truth = (struct truth){.width = scene->settings.width, .height = scene->settings.height};
+    *truth = (struct truth){.width = scene->settings.width / every,
+                            .height = scene->settings.height / every,
+                            .every = every};
     truth->radiance =
         turner_calloc((size_t)truth->width * (size_t)truth->height, sizeof *truth->radiance);
     if (read_cache(truth, cache))

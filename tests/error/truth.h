@@ -1,8 +1,7 @@
-/* What pixels truly are: their means over the area, by the reference tracer. A pixel is 4×4 squares,
- * each by Simpson's weights (2/3 centre, 1/12 each corner). Where one of them bends (the mean of its
- * corners less its centre) by more than 4 × `tolerance`, all are divided into 16 more, and these
- * until bend × area is less than `tolerance`, never quite in the middle: errors along an edge are
- * then independent. */
+/* What pixels truly are: their means over the area, by the reference tracer. A pixel is 16×16
+ * squares, each by Simpson's weights (2/3 centre, 1/12 each corner); they are divided into four until
+ * bend (the mean of its corners less its centre) × area is less than `tolerance`, never quite in the
+ * middle: errors along an edge are then independent. */
 #ifndef TURNER_TESTS_ERROR_TRUTH_H
 #define TURNER_TESTS_ERROR_TRUTH_H
 
@@ -10,7 +9,8 @@
 #include "turner.h"
 
 struct truth {
-    int width, height;
+    int width, height; /* of `radiance` */
+    int every;         /* pixels from one to the next, the first in the middle of that many */
     double (*radiance)[3];
     double pruned;  /* mean weight that was cut */
     double samples; /* mean of a pixel */
@@ -19,9 +19,10 @@ struct truth {
 #define TRUTH_DEPTH 64
 #define TRUTH_CUTOFF 3e-5
 
-/* At the size of the scene's settings; reads `cache` (.exr) if there is one of that size, else
- * computes and writes it (NULL: neither), and says so. */
-enum turner_result truth_create(struct truth *truth, const struct turner_scene *scene,
+/* Of the picture in the size of the scene's settings, of one pixel in `every` across and down. Reads
+ * `cache` (.exr) if there is one of that size, else computes and writes it (NULL: neither), and says
+ * so. */
+enum turner_result truth_create(struct truth *truth, const struct turner_scene *scene, int every,
                                 double tolerance, const char *cache);
 void truth_destroy(struct truth *truth);
 
