@@ -4,11 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/app.h"
 #include "app/explain.h"
+#include "app/scene_options.h"
 #include "reference/reference.h"
 #include "render/explain.h"
-#include "scene/methods.h"
 
 static void print_help(void)
 {
@@ -31,87 +30,40 @@ static void print_help(void)
          "Example: turner explain scenes/bubble.json --pixel 320,240 --depth 2");
 }
 
-#define MAX_SHADER_DIRS 16
-#define MAX_METHODS 64
-
 struct arguments {
-    const char *scene, *pixel;
-    int width, height, depth, spp, sample, bits; /* −1 (or 0): the scene's, or the default */
-    double cutoff;                               /* NaN: the scene's */
+    const char *pixel;
+    int sample, bits; /* −1: the pixel's centre; the default */
     bool json;
-    const char *methods[MAX_METHODS], *shader_dirs[MAX_SHADER_DIRS];
-    size_t method_count;
-    struct turner_render_options render;
+    struct turner_scene_options options;
 };
 
-enum { OPTION_SIZE = 256, OPTION_DEPTH, OPTION_CUTOFF, OPTION_SPP, OPTION_SAMPLE,
-       OPTION_TRAVERSAL, OPTION_SHADER_DIR, OPTION_BITS, OPTION_JSON };
+enum { SAMPLE = TURNER_OPTION_OWN, BITS, JSON };
 
 static const struct option long_options[] = {
     {"pixel", required_argument, NULL, 'p'},
-    {"sample", required_argument, NULL, OPTION_SAMPLE},
-    {"size", required_argument, NULL, OPTION_SIZE},
-    {"depth", required_argument, NULL, OPTION_DEPTH},
-    {"cutoff", required_argument, NULL, OPTION_CUTOFF},
-    {"spp", required_argument, NULL, OPTION_SPP},
+    {"sample", required_argument, NULL, SAMPLE},
+    {"size", required_argument, NULL, TURNER_OPTION_SIZE},
+    {"depth", required_argument, NULL, TURNER_OPTION_DEPTH},
+    {"cutoff", required_argument, NULL, TURNER_OPTION_CUTOFF},
+    {"spp", required_argument, NULL, TURNER_OPTION_SPP},
     {"method", required_argument, NULL, 'm'},
     {"device", required_argument, NULL, 'd'},
-    {"traversal", required_argument, NULL, OPTION_TRAVERSAL},
-    {"shader-dir", required_argument, NULL, OPTION_SHADER_DIR},
-    {"bits", required_argument, NULL, OPTION_BITS},
-    {"json", no_argument, NULL, OPTION_JSON},
+    {"traversal", required_argument, NULL, TURNER_OPTION_TRAVERSAL},
+    {"shader-dir", required_argument, NULL, TURNER_OPTION_SHADER_DIR},
+    {"bits", required_argument, NULL, BITS},
+    {"json", no_argument, NULL, JSON},
     {"help", no_argument, NULL, 'h'},
     {0}};
 
 static enum turner_result take(struct arguments *a, int option, char **argv)
 {
-    static const char *const traversals[] = {"auto", "bvh", "ray_query", NULL};
-    int choice;
     switch (option) {
     case 'p': a->pixel = optarg; return TURNER_OK;
-    case 'd': a->render.device = optarg; return TURNER_OK;
-    case 'm':
-        if (a->method_count == MAX_METHODS)
-            return turner_fail(TURNER_USAGE, "--method can be given %d times", MAX_METHODS);
-        a->methods[a->method_count++] = optarg;
-        return TURNER_OK;
-    case OPTION_SAMPLE:
-        return turner_option_int(&a->sample, "--sample", optarg, 0, TURNER_MAX_SPP - 1);
-    case OPTION_SIZE: return turner_option_size(&a->width, &a->height, "--size", optarg);
-    case OPTION_DEPTH: return turner_option_int(&a->depth, "--depth", optarg, 0, TURNER_MAX_DEPTH);
-    case OPTION_CUTOFF: return turner_option_real(&a->cutoff, "--cutoff", optarg, 0, 1);
-    case OPTION_SPP: return turner_option_int(&a->spp, "--spp", optarg, 1, TURNER_MAX_SPP);
-    case OPTION_TRAVERSAL:
-        TURNER_TRY(turner_option_choice(&choice, "--traversal", optarg, traversals));
-        a->render.traversal = (enum turner_traversal)choice;
-        return TURNER_OK;
-    case OPTION_SHADER_DIR:
-        if (a->render.shader_dir_count == MAX_SHADER_DIRS)
-            return turner_fail(TURNER_USAGE, "--shader-dir can be given %d times",
-                               MAX_SHADER_DIRS);
-        a->shader_dirs[a->render.shader_dir_count++] = optarg;
-        return TURNER_OK;
-    case OPTION_BITS: return turner_option_int(&a->bits, "--bits", optarg, 1, 53);
-    case OPTION_JSON: a->json = true; return TURNER_OK;
+    case SAMPLE: return turner_option_int(&a->sample, "--sample", optarg, 0, TURNER_MAX_SPP - 1);
+    case BITS: return turner_option_int(&a->bits, "--bits", optarg, 1, 53);
+    case JSON: a->json = true; return TURNER_OK;
     }
-    return turner_bad_option(argv);
-}
-
-static enum turner_result apply(const struct arguments *a, struct turner_scene *scene)
-{
-    struct turner_settings *s = &scene->settings;
-    for (size_t i = 0; i < a->method_count; i++)
-        TURNER_TRY(turner_method_assign(s, a->methods[i]));
-    s->error = 0; /* one tree, of the depth and cutoff that are given: both sides can follow it */
-    if (a->width)
-        s->width = a->width, s->height = a->height;
-    if (a->depth >= 0)
-        s->depth = a->depth;
-    if (!isnan(a->cutoff))
-        s->cutoff = a->cutoff;
-    if (a->spp)
-        s->spp = a->spp, s->aa_threshold = 0;
-    return turner_scene_validate(scene);
+    return turner_scene_option_take(&a->options, option, argv);
 }
 
 /* "X,Y" of a picture. */
@@ -156,7 +108,7 @@ static enum turner_result explain(const struct arguments *a, const struct turner
     struct turner_explanation explanation = {.scene = scene};
     struct turner_ray_tree device = {0}, reference = {0};
     struct turner_recorder recorder = {0};
-    bool alone = a->render.device && strcmp(a->render.device, "reference") == 0;
+    bool alone = a->options.render.device && strcmp(a->options.render.device, "reference") == 0;
     enum turner_result result;
     TURNER_TRY(read_pixel(&explanation.x, &explanation.y, a->pixel, &scene->settings));
     TURNER_TRY(place_sample(&explanation, a, &scene->settings));
@@ -165,7 +117,7 @@ static enum turner_result explain(const struct arguments *a, const struct turner
                                              explanation.x + explanation.sample_x,
                                              explanation.y + explanation.sample_y));
     if (!alone) {
-        TURNER_TRY_DONE(turner_recorder_create(&recorder, scene, &a->render));
+        TURNER_TRY_DONE(turner_recorder_create(&recorder, scene, &a->options.render));
         TURNER_TRY_DONE(turner_recorder_trace(&device, &recorder, explanation.x, explanation.y,
                                               explanation.sample_x, explanation.sample_y));
         explanation.device = recorder.gpu.info.name;
@@ -186,7 +138,7 @@ done:
 
 enum turner_result turner_cmd_explain(int argc, char **argv)
 {
-    struct arguments a = {.depth = -1, .cutoff = NAN, .sample = -1, .bits = 10};
+    struct arguments a = {.sample = -1, .bits = 10, .options = TURNER_SCENE_OPTIONS};
     opterr = 0;
     for (int option; (option = getopt_long(argc, argv, "p:d:m:h", long_options, NULL)) != -1;) {
         if (option == 'h') {
@@ -199,11 +151,11 @@ enum turner_result turner_cmd_explain(int argc, char **argv)
         return turner_fail(TURNER_USAGE, "explain takes one scene; see turner explain --help");
     if (!a.pixel)
         return turner_fail(TURNER_USAGE, "say which pixel: --pixel X,Y");
-    a.render.shader_dirs = a.shader_dirs;
 
     struct turner_scene *scene;
     TURNER_TRY(turner_scene_load(&scene, argv[optind]));
-    enum turner_result result = apply(&a, scene);
+    enum turner_result result = turner_scene_options_apply(&a.options, scene);
+    scene->settings.error = 0; /* one tree, of the depth and cutoff that both sides can follow */
     if (result == TURNER_OK)
         result = explain(&a, scene);
     turner_scene_destroy(scene);

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "app/app.h"
 #include "app/povray.h"
+#include "app/scene_options.h"
 #include "scene/pov.h"
 
 static const char help[] =
@@ -33,43 +33,20 @@ static const char help[] =
 struct arguments {
     const char *output;
     bool pov, run, quiet;
-    int width, height, depth, shading, shadows; /* −1 (or 0): the scene's */
-    double cutoff;                              /* negative: the scene's */
+    struct turner_scene_options options;
 };
 
-enum { POV = 256, RUN, SIZE, DEPTH, CUTOFF, SHADING, SHADOWS };
+enum { POV = TURNER_OPTION_OWN, RUN };
 
 static enum turner_result take(struct arguments *a, int option, char **argv)
 {
-    static const char *const shadings[] = {"phong", "energy_conserving", NULL};
-    static const char *const shadows[] = {"opaque", "tinted", NULL};
     switch (option) {
     case 'o': a->output = optarg; return TURNER_OK;
     case 'q': a->quiet = true; return TURNER_OK;
     case POV: a->pov = true; return TURNER_OK;
     case RUN: a->run = true; return TURNER_OK;
-    case SIZE: return turner_option_size(&a->width, &a->height, "--size", optarg);
-    case DEPTH: return turner_option_int(&a->depth, "--depth", optarg, 0, TURNER_MAX_DEPTH);
-    case CUTOFF: return turner_option_real(&a->cutoff, "--cutoff", optarg, 0, 1);
-    case SHADING: return turner_option_choice(&a->shading, "--shading", optarg, shadings);
-    case SHADOWS: return turner_option_choice(&a->shadows, "--shadows", optarg, shadows);
     }
-    return turner_bad_option(argv);
-}
-
-static void apply(const struct arguments *a, struct turner_scene *scene)
-{
-    struct turner_settings *s = &scene->settings;
-    if (a->width)
-        s->width = a->width, s->height = a->height;
-    if (a->depth >= 0)
-        s->depth = a->depth;
-    if (a->cutoff >= 0)
-        s->cutoff = a->cutoff;
-    if (a->shading >= 0)
-        s->shading = (enum turner_shading)a->shading;
-    if (a->shadows >= 0)
-        s->shadows = (enum turner_shadows)a->shadows;
+    return turner_scene_option_take(&a->options, option, argv);
 }
 
 /* `path` is FOLDER/NAME.pov; its picture goes to FOLDER/NAME.exr. */
@@ -96,15 +73,15 @@ enum turner_result turner_cmd_export(int argc, char **argv)
         {"pov", no_argument, NULL, POV},
         {"run", no_argument, NULL, RUN},
         {"output", required_argument, NULL, 'o'},
-        {"size", required_argument, NULL, SIZE},
-        {"depth", required_argument, NULL, DEPTH},
-        {"cutoff", required_argument, NULL, CUTOFF},
-        {"shading", required_argument, NULL, SHADING},
-        {"shadows", required_argument, NULL, SHADOWS},
+        {"size", required_argument, NULL, TURNER_OPTION_SIZE},
+        {"depth", required_argument, NULL, TURNER_OPTION_DEPTH},
+        {"cutoff", required_argument, NULL, TURNER_OPTION_CUTOFF},
+        {"shading", required_argument, NULL, TURNER_OPTION_SHADING},
+        {"shadows", required_argument, NULL, TURNER_OPTION_SHADOWS},
         {"quiet", no_argument, NULL, 'q'},
         {"help", no_argument, NULL, 'h'},
         {0}};
-    struct arguments a = {.depth = -1, .shading = -1, .shadows = -1, .cutoff = -1};
+    struct arguments a = {.options = TURNER_SCENE_OPTIONS};
     opterr = 0;
     for (int option; (option = getopt_long(argc, argv, "o:qh", options, NULL)) != -1;) {
         if (option == 'h') {
@@ -123,8 +100,7 @@ enum turner_result turner_cmd_export(int argc, char **argv)
     struct turner_scene *scene = NULL;
     enum turner_result result;
     TURNER_TRY_DONE(turner_scene_load(&scene, argv[optind]));
-    apply(&a, scene);
-    TURNER_TRY_DONE(turner_scene_validate(scene));
+    TURNER_TRY_DONE(turner_scene_options_apply(&a.options, scene));
     TURNER_TRY_DONE(a.run ? draw(scene, a.output) : turner_pov_write(scene, a.output));
 done:
     turner_scene_destroy(scene);

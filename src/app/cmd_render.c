@@ -3,13 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/app.h"
+#include "app/scene_options.h"
 #include "image/atomic.h"
 #include "image/image.h"
 #include "render/advice.h"
 #include "render/layers.h"
 #include "render/renderer.h"
-#include "scene/methods.h"
 
 static void print_help(void)
 {
@@ -53,145 +52,56 @@ static void print_help(void)
          "  turner render scenes/prism.json -o prism.exr --aov normal,depth,rays");
 }
 
-#define MAX_SHADER_DIRS 16
-#define MAX_METHODS 64
-
 struct arguments {
     const char *scene, *output, *stats;
-    int width, height, depth, spp, shading, shadows, transfer; /* −1 (or 0): the scene's */
-    double cutoff, exposure, error; /* NaN: the scene's */
-    bool spd_rays, spd_grid, print_settings, quiet;
-    const char *shader_dirs[MAX_SHADER_DIRS];
-    const char *methods[MAX_METHODS]; /* "name=value", later ones win */
-    size_t method_count;
+    bool print_settings, quiet;
     struct turner_layers layers;
-    struct turner_render_options render;
+    struct turner_scene_options options;
 };
 
-enum { OPTION_SIZE = 256, OPTION_DEPTH, OPTION_CUTOFF, OPTION_SPP, OPTION_SHADING, OPTION_SHADOWS,
-       OPTION_EXPOSURE, OPTION_TRANSFER, OPTION_SPD_RAYS, OPTION_SPD_GRID, OPTION_TRAVERSAL,
-       OPTION_SHADER_DIR, OPTION_TILE, OPTION_THREADS, OPTION_UNSPECIALISED, OPTION_STATS,
-       OPTION_PRINT_SETTINGS, OPTION_AOV, OPTION_ERROR };
+enum { TILE = TURNER_OPTION_OWN, THREADS, UNSPECIALISED, STATS, PRINT_SETTINGS, AOV };
 
 static const struct option long_options[] = {
     {"output", required_argument, NULL, 'o'},
     {"method", required_argument, NULL, 'm'},
-    {"size", required_argument, NULL, OPTION_SIZE},
-    {"depth", required_argument, NULL, OPTION_DEPTH},
-    {"cutoff", required_argument, NULL, OPTION_CUTOFF},
-    {"spp", required_argument, NULL, OPTION_SPP},
-    {"shading", required_argument, NULL, OPTION_SHADING},
-    {"shadows", required_argument, NULL, OPTION_SHADOWS},
-    {"exposure", required_argument, NULL, OPTION_EXPOSURE},
-    {"transfer", required_argument, NULL, OPTION_TRANSFER},
-    {"error", required_argument, NULL, OPTION_ERROR},
-    {"aov", required_argument, NULL, OPTION_AOV},
-    {"spd-rays", no_argument, NULL, OPTION_SPD_RAYS},
-    {"spd-grid", no_argument, NULL, OPTION_SPD_GRID},
+    {"size", required_argument, NULL, TURNER_OPTION_SIZE},
+    {"depth", required_argument, NULL, TURNER_OPTION_DEPTH},
+    {"cutoff", required_argument, NULL, TURNER_OPTION_CUTOFF},
+    {"spp", required_argument, NULL, TURNER_OPTION_SPP},
+    {"shading", required_argument, NULL, TURNER_OPTION_SHADING},
+    {"shadows", required_argument, NULL, TURNER_OPTION_SHADOWS},
+    {"exposure", required_argument, NULL, TURNER_OPTION_EXPOSURE},
+    {"transfer", required_argument, NULL, TURNER_OPTION_TRANSFER},
+    {"error", required_argument, NULL, TURNER_OPTION_ERROR},
+    {"aov", required_argument, NULL, AOV},
+    {"spd-rays", no_argument, NULL, TURNER_OPTION_SPD_RAYS},
+    {"spd-grid", no_argument, NULL, TURNER_OPTION_SPD_GRID},
     {"device", required_argument, NULL, 'd'},
-    {"traversal", required_argument, NULL, OPTION_TRAVERSAL},
-    {"shader-dir", required_argument, NULL, OPTION_SHADER_DIR},
-    {"tile", required_argument, NULL, OPTION_TILE},
-    {"threads", required_argument, NULL, OPTION_THREADS},
-    {"unspecialised", no_argument, NULL, OPTION_UNSPECIALISED},
-    {"stats", required_argument, NULL, OPTION_STATS},
-    {"print-settings", no_argument, NULL, OPTION_PRINT_SETTINGS},
+    {"traversal", required_argument, NULL, TURNER_OPTION_TRAVERSAL},
+    {"shader-dir", required_argument, NULL, TURNER_OPTION_SHADER_DIR},
+    {"tile", required_argument, NULL, TILE},
+    {"threads", required_argument, NULL, THREADS},
+    {"unspecialised", no_argument, NULL, UNSPECIALISED},
+    {"stats", required_argument, NULL, STATS},
+    {"print-settings", no_argument, NULL, PRINT_SETTINGS},
     {"quiet", no_argument, NULL, 'q'},
     {"help", no_argument, NULL, 'h'},
     {0}};
 
-static enum turner_result take_error(double *out, const char *text)
-{
-    double error;
-    if (!turner_fraction(&error, text) || error < TURNER_ERROR_LEAST || error > TURNER_ERROR_MOST)
-        return turner_fail(TURNER_USAGE, "--error takes a number from %g to %g, or a fraction as in "
-                                         "1/255, not \"%s\"", TURNER_ERROR_LEAST,
-                           TURNER_ERROR_MOST, text);
-    *out = error;
-    return TURNER_OK;
-}
-
 static enum turner_result take(struct arguments *a, int option, char **argv)
 {
-    static const char *const shadings[] = {"phong", "energy_conserving", NULL};
-    static const char *const shadows[] = {"opaque", "tinted", NULL};
-    static const char *const transfers[] = {"srgb", "linear", NULL};
-    static const char *const traversals[] = {"auto", "bvh", "ray_query", NULL};
-    int choice;
+    struct turner_render_options *render = &a->options.render;
     switch (option) {
     case 'o': a->output = optarg; return TURNER_OK;
-    case 'd': a->render.device = optarg; return TURNER_OK;
-    case 'm':
-        if (a->method_count == MAX_METHODS)
-            return turner_fail(TURNER_USAGE, "--method can be given %d times", MAX_METHODS);
-        a->methods[a->method_count++] = optarg;
-        return TURNER_OK;
     case 'q': a->quiet = true; return TURNER_OK;
-    case OPTION_SIZE: return turner_option_size(&a->width, &a->height, "--size", optarg);
-    case OPTION_DEPTH: return turner_option_int(&a->depth, "--depth", optarg, 0, TURNER_MAX_DEPTH);
-    case OPTION_CUTOFF: return turner_option_real(&a->cutoff, "--cutoff", optarg, 0, 1);
-    case OPTION_SPP: return turner_option_int(&a->spp, "--spp", optarg, 1, TURNER_MAX_SPP);
-    case OPTION_SHADING: return turner_option_choice(&a->shading, "--shading", optarg, shadings);
-    case OPTION_SHADOWS: return turner_option_choice(&a->shadows, "--shadows", optarg, shadows);
-    case OPTION_EXPOSURE:
-        return turner_option_real(&a->exposure, "--exposure", optarg, -64, 64);
-    case OPTION_TRANSFER:
-        return turner_option_choice(&a->transfer, "--transfer", optarg, transfers);
-    case OPTION_ERROR: return take_error(&a->error, optarg);
-    case OPTION_AOV: return turner_layers_parse(&a->layers.wanted, optarg);
-    case OPTION_SPD_RAYS: a->spd_rays = true; return TURNER_OK;
-    case OPTION_SPD_GRID: a->spd_grid = true; return TURNER_OK;
-    case OPTION_TRAVERSAL:
-        TURNER_TRY(turner_option_choice(&choice, "--traversal", optarg, traversals));
-        a->render.traversal = (enum turner_traversal)choice;
-        return TURNER_OK;
-    case OPTION_SHADER_DIR:
-        if (a->render.shader_dir_count == MAX_SHADER_DIRS)
-            return turner_fail(TURNER_USAGE, "--shader-dir can be given %d times",
-                               MAX_SHADER_DIRS);
-        a->shader_dirs[a->render.shader_dir_count++] = optarg;
-        return TURNER_OK;
-    case OPTION_TILE: return turner_option_int(&a->render.tile, "--tile", optarg, 1, 4096);
-    case OPTION_THREADS:
-        return turner_option_int(&a->render.threads, "--threads", optarg, 1, 1024);
-    case OPTION_UNSPECIALISED: a->render.unspecialised = true; return TURNER_OK;
-    case OPTION_STATS: a->stats = optarg; return TURNER_OK;
-    case OPTION_PRINT_SETTINGS: a->print_settings = true; return TURNER_OK;
+    case AOV: return turner_layers_parse(&a->layers.wanted, optarg);
+    case TILE: return turner_option_int(&render->tile, "--tile", optarg, 1, 4096);
+    case THREADS: return turner_option_int(&render->threads, "--threads", optarg, 1, 1024);
+    case UNSPECIALISED: render->unspecialised = true; return TURNER_OK;
+    case STATS: a->stats = optarg; return TURNER_OK;
+    case PRINT_SETTINGS: a->print_settings = true; return TURNER_OK;
     }
-    return turner_bad_option(argv);
-}
-
-static enum turner_result apply(const struct arguments *a, struct turner_scene *scene)
-{
-    struct turner_settings *s = &scene->settings;
-    for (size_t i = 0; i < a->method_count; i++)
-        TURNER_TRY(turner_method_assign(s, a->methods[i]));
-    if (a->width)
-        s->width = a->width, s->height = a->height;
-    if (a->depth >= 0)
-        s->depth = a->depth, s->depth_asked = true;
-    if (!isnan(a->cutoff))
-        s->cutoff = a->cutoff;
-    if (a->spp)
-        s->spp = a->spp, s->aa_threshold = 0;
-    if (a->spp || a->depth >= 0 || !isnan(a->cutoff))
-        s->error = 0;
-    if (!isnan(a->error) && (a->spp || a->depth >= 0 || !isnan(a->cutoff)))
-        return turner_fail(TURNER_USAGE, "--error chooses depth, cutoff and samples itself; leave "
-                                         "out --depth, --cutoff and --spp");
-    if (!isnan(a->error))
-        s->error = a->error;
-    if (a->shading >= 0)
-        s->shading = (enum turner_shading)a->shading;
-    if (a->shadows >= 0)
-        s->shadows = (enum turner_shadows)a->shadows;
-    if (!isnan(a->exposure))
-        s->exposure = a->exposure;
-    if (a->transfer >= 0)
-        s->transfer = (enum turner_transfer)a->transfer;
-    s->spd_rays = s->spd_rays || a->spd_rays;
-    s->spd_grid = s->spd_grid || a->spd_grid;
-    return turner_scene_validate(scene);
+    return turner_scene_option_take(&a->options, option, argv);
 }
 
 static enum turner_result write_picture(const struct arguments *a,
@@ -247,11 +157,11 @@ static enum turner_result render(struct arguments *a, struct turner_scene *scene
     struct turner_image image = {0};
     enum turner_result result;
     turner_progress_begin(&bar, a->quiet);
-    a->render.shader_dirs = a->shader_dirs;
-    a->render.progress = turner_progress_show;
-    a->render.user = &bar;
-    a->render.layers = a->layers.wanted ? &a->layers : NULL;
-    result = turner_render(&image, scene, &a->render, statistics);
+    struct turner_render_options *options = &a->options.render;
+    options->progress = turner_progress_show;
+    options->user = &bar;
+    options->layers = a->layers.wanted ? &a->layers : NULL;
+    result = turner_render(&image, scene, options, statistics);
     turner_progress_end(&bar);
     if (result != TURNER_OK)
         goto done;
@@ -268,8 +178,7 @@ done:
 
 enum turner_result turner_cmd_render(int argc, char **argv)
 {
-    struct arguments a = {.depth = -1, .cutoff = NAN, .exposure = NAN, .error = NAN, .shading = -1,
-                          .shadows = -1, .transfer = -1};
+    struct arguments a = {.options = TURNER_SCENE_OPTIONS};
     opterr = 0;
     for (int option; (option = getopt_long(argc, argv, "o:d:m:qh", long_options, NULL)) != -1;) {
         if (option == 'h') {
@@ -296,7 +205,7 @@ enum turner_result turner_cmd_render(int argc, char **argv)
     double start = turner_seconds();
     TURNER_TRY(turner_scene_load(&scene, a.scene));
     statistics.seconds_parse = turner_seconds() - start;
-    enum turner_result result = apply(&a, scene);
+    enum turner_result result = turner_scene_options_apply(&a.options, scene);
     if (result == TURNER_OK && a.print_settings) {
         char *settings = turner_settings_json(scene);
         puts(settings);
