@@ -119,8 +119,8 @@ char *turner_chart_default_grid(const struct turner_scene *scene)
     }
     add_also(also, MANY_SAMPLES, "%s", deep);
     cJSON_AddItemToArray(also, cJSON_CreateString("aa=adaptive:0.2,16"));
+    cJSON_AddItemToArray(also, cJSON_CreateString("error=1/16"));
     cJSON_AddItemToArray(also, cJSON_CreateString("error=1/64"));
-    cJSON_AddItemToArray(also, cJSON_CreateString("error=1/255"));
     snprintf(finest, sizeof finest, "aa=adaptive:0.01,256 %s", deep);
     cJSON_AddItemToArray(also, cJSON_CreateString(finest));
     add_methods(also, scene, needs, samples);

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-#define CUT_SHARE 0.5     /* of the error, that cut rays may take */
+#define CUT_SHARE 1.0     /* of the error, that cut rays may take */
 #define CUTOFF_STEP 8
 #define CUTOFF_LEAST 1e-7
 #define GRID 4            /* pixels between samples of the coarse grid */
