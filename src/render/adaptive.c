@@ -14,6 +14,7 @@
 #define LEVEL_MAX 12
 #define FIRST_CELLS 16           /* that a pixel is divided into at least, for an error */
 #define FLOAT_BITS 24
+#define SPACINGS_LEAST 16        /* of floats, along the edge of a cell that is divided */
 #define SPLIT_SHARE 0.25f         /* of the most that a cell of the pixel adds */
 #define SAMPLING_LEAST 0.25f      /* of the error asked for */
 
@@ -24,7 +25,8 @@ struct picture {
     struct turner_statistics *statistics;
     struct turner_lattice lattice;
     struct turner_cells cells;
-    int level_max; /* positions are exact in float that far */
+    int level_max;    /* of cells that are divided no more: their edges are floats that far */
+    float area_least; /* of cells that are divided, where they are jittered */
     double samples; /* sum over pixels */
     struct turner_scale scale; /* where an error is asked for */
     float *errors;  /* the same, or NULL: the estimate of each pixel */
@@ -37,6 +39,11 @@ struct tile {
 bool turner_adaptive_wanted(const struct turner_settings *settings)
 {
     return settings->aa_threshold > 0 || settings->error > 0;
+}
+
+static bool is_divisible(const struct picture *picture, const struct turner_cell *cell)
+{
+    return cell->level < picture->level_max && cell->area >= picture->area_least;
 }
 
 /* ---- Whitted's rule ---- */
@@ -96,7 +103,7 @@ static void mark_by_threshold(const struct picture *picture, const struct turner
     for (size_t i = 0; i < patch->count; i++) {
         cells[i].measure = spread(picture->lattice.values, &cells[i]);
         cells[i].split =
-            (double)cells[i].measure > threshold && cells[i].level < picture->level_max;
+            (double)cells[i].measure > threshold && is_divisible(picture, &cells[i]);
     }
 }
 
@@ -111,7 +118,7 @@ static float mark_by_error(const struct picture *picture, const struct turner_pa
     struct turner_cell *cells = picture->cells.cells + patch->first;
     for (size_t i = 0; i < patch->count; i++) {
         cells[i].split = false;
-        if (cells[i].level < picture->level_max)
+        if (is_divisible(picture, &cells[i]))
             most = fmaxf(most, cells[i].measure);
     }
     /* what sampling may take; more samples do not help against the rest */
@@ -122,7 +129,7 @@ static float mark_by_error(const struct picture *picture, const struct turner_pa
     if (!first && fmaxf(turner_estimate_of_samples(&estimate), estimate.look) <= left)
         return total;
     for (size_t i = 0; i < patch->count; i++)
-        cells[i].split = cells[i].level < picture->level_max &&
+        cells[i].split = is_divisible(picture, &cells[i]) &&
                          (first || cells[i].measure >= SPLIT_SHARE * most);
     return total;
 }
@@ -305,15 +312,28 @@ static int tile_edge(const struct turner_renderer *renderer)
     return edge;
 }
 
-/* The level down to which the centres of cells are floats. */
-static int level_max(const struct turner_settings *settings)
+/* Bits before the point that a position takes. */
+static int position_bits(const struct turner_settings *settings)
 {
     int size = settings->width > settings->height ? settings->width : settings->height;
     int bits = 0;
     while (1 << bits <= size)
         bits++;
-    int level = FLOAT_BITS - bits - 1;
+    return bits;
+}
+
+/* The level down to which the centres of squares are floats. */
+static int level_max(const struct turner_settings *settings)
+{
+    int level = FLOAT_BITS - position_bits(settings) - 1;
     return level < LEVEL_MAX ? level : LEVEL_MAX;
+}
+
+/* The square of what is left to place samples in. */
+static float area_least(const struct turner_settings *settings)
+{
+    float edge = SPACINGS_LEAST * ldexpf(1, position_bits(settings) - FLOAT_BITS);
+    return settings->error > 0 ? edge * edge : 0;
 }
 
 static enum turner_result draw(struct picture *picture, const struct turner_render_options *options)
@@ -352,6 +372,7 @@ enum turner_result turner_adaptive_draw(struct turner_renderer *renderer,
         .layers = options->layers,
         .statistics = statistics,
         .level_max = level_max(&renderer->settings),
+        .area_least = area_least(&renderer->settings),
     };
     statistics->samples_max = 0;
     statistics->cutoff_least = renderer->settings.cutoff;

@@ -1,5 +1,6 @@
 #include "render/cells.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -79,6 +80,7 @@ static void measure(struct turner_cell *cell, const struct turner_lattice *latti
     }
     for (int i = 0; i < 2; i++)
         area[i] = p[i + 1][0] * p[i + 2][1] - p[i + 1][1] * p[i + 2][0];
+    assert(area[0] + area[1] > 0);
     for (int k = 0; k < 2; k++)
         center[k] = (area[0] * (p[1][k] + p[2][k]) + area[1] * (p[2][k] + p[3][k])) /
                     (3 * (area[0] + area[1]));

@@ -7,7 +7,7 @@
 
 #include "render/lattice.h"
 
-#define TURNER_CELL_SAMPLES 5 /* of one square */
+#define TURNER_CELL_SAMPLES 5 /* of one cell */
 #define TURNER_CELL_SPLIT 8   /* that a division counts: four edges' middles, four centres */
 
 struct turner_cell {
@@ -15,15 +15,16 @@ struct turner_cell {
     uint32_t center;    /* of gravity */
     float area;         /* in pixels */
     float weight[4];    /* of the corners; their sum is 1, their mean the centre */
-    uint16_t x, y;      /* from the pixel's top left, in its own edge lengths, 2^−level pixels, were it a square */
+    uint16_t x, y;      /* from the pixel's top left, as if it were a square of 2^−level pixels, in
+                           its edge lengths */
     uint8_t level;
     bool split;         /* to be divided next */
     float measure;      /* for whoever decides */
     float bend;         /* how far the mean of the corners is from the centre (estimate.c) */
-    float parent_bend;  /* of the square that it was part of */
+    float parent_bend;  /* of the cell that it was part of, for the same area */
 };
 
-/* Bends of squares. */
+/* Bends of pixels as one square. */
 struct turner_surroundings {
     float own;    /* of the pixel */
     float most;   /* that it may have, going by those around */
@@ -35,7 +36,7 @@ struct turner_surroundings {
 /* A pixel that is not finished. */
 struct turner_patch {
     int x, y;
-    int samples;         /* so far; those shared with neighbouring squares count twice */
+    int samples;         /* so far; those shared with neighbouring cells count twice */
     size_t first, count; /* its cells */
     struct turner_surroundings around; /* where an error is asked for */
 };
