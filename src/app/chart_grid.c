@@ -43,8 +43,10 @@ static void add_word(struct turner_chart_point *point, const char *name,
 static void make_label(struct turner_chart_point *point, const struct turner_settings *base)
 {
     char text[TURNER_METHOD_TEXT], base_text[TURNER_METHOD_TEXT];
-    turner_method_text(text, &point->settings, "aa");
-    add_word(point, "aa", text);
+    if (point->settings.error == 0) { /* which chooses samples itself */
+        turner_method_text(text, &point->settings, "aa");
+        add_word(point, "aa", text);
+    }
     for (size_t i = 0; i < turner_method_count; i++) {
         const char *name = turner_methods_list[i].name;
         turner_method_text(text, &point->settings, name);
