@@ -295,7 +295,7 @@ TURNER_STRUCT(turner_gpu_dispatch)
     TURNER_UINT64 scene;
     TURNER_UINT64 pixels;    /* 4 floats a pixel of the tile or sample of the list: sums of
                                 radiance and pruned */
-    TURNER_UINT64 counters;
+    TURNER_UINT64 counters;  /* rays.comp: the hits */
     TURNER_UINT64 pixel_counts; /* as many as `pixels`, with TURNER_CONSTANT_PIXEL_COUNTS */
     TURNER_UINT64 positions; /* list: `count` places in the picture, in pixels; or 0: a tile */
     uint tile_x;             /* the tile's place in the picture */
@@ -402,6 +402,32 @@ TURNER_STRUCT(turner_gpu_probe)
     TURNER_VEC3(radiance);
     float pruned;
 };
+
+/* A ray of a list (rays.comp), and what it met. */
+#define TURNER_RAY_NEAREST 0u
+#define TURNER_RAY_ANY 1u  /* a shadow ray: whether it meets anything */
+#define TURNER_RAY_NONE 2u /* there is no such ray */
+
+TURNER_STRUCT(turner_gpu_ray)
+{
+    TURNER_VEC3(origin);
+    float t_max;
+    TURNER_VEC3(direction);
+    uint kind;
+};
+
+TURNER_STRUCT(turner_gpu_hit)
+{
+    float t; /* infinite: nothing met */
+    uint id;
+    uint instance;
+};
+
+/* What rays.comp sends on with TURNER_RAYS_SEND: turner_gpu_dispatch.first. */
+#define TURNER_SEND_CAMERA 0u /* one through the centre of each pixel, 8×8 blocks in rows */
+#define TURNER_SEND_SHADOW 1u /* to the first light */
+#define TURNER_SEND_MIRROR 2u
+#define TURNER_SEND_RANDOM 3u /* as a matt surface scatters: by the cosine */
 
 #ifndef GL_core_profile
 #undef uint

@@ -15,6 +15,7 @@ enum turner_result turner_cmd_devices(int argc, char **argv);
 enum turner_result turner_cmd_params(int argc, char **argv);
 enum turner_result turner_cmd_stability(int argc, char **argv);
 enum turner_result turner_cmd_export(int argc, char **argv);
+enum turner_result turner_cmd_bench(int argc, char **argv);
 
 /* What a subcommand says of an option getopt_long did not understand: TURNER_USAGE naming the
  * nearest way out ("turner render --help"). `argv[optind-1]` is the culprit. */

@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "app/app.h"
 #include "app/chart.h"
+#include "app/machine.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "render/renderer.h"
@@ -44,37 +44,12 @@ static uint64_t build_hash(void)
     return hash;
 }
 
-static int count_threads(void)
-{
-    const char *limit = getenv("LP_NUM_THREADS"); /* of Mesa's CPU device */
-    long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    int threads = limit ? atoi(limit) : 0;
-    return threads > 0 ? threads : cores > 0 ? (int)cores : 1;
-}
-
-static void read_cpu(char *cpu, size_t size)
-{
-    static const char key[] = "model name";
-    FILE *file = fopen("/proc/cpuinfo", "r");
-    char line[256];
-    while (file && fgets(line, sizeof line, file)) {
-        char *colon = strchr(line, ':');
-        if (strncmp(line, key, sizeof key - 1) != 0 || !colon)
-            continue;
-        colon[strcspn(colon, "\n")] = 0;
-        snprintf(cpu, size, "%s", colon + 1 + strspn(colon + 1, " "));
-        break;
-    }
-    if (file)
-        fclose(file);
-}
-
 static void describe(struct turner_chart *chart, const struct turner_gpu_info *info)
 {
     snprintf(chart->device, sizeof chart->device, "%s", info->name);
     snprintf(chart->driver, sizeof chart->driver, "%s", info->driver);
-    chart->threads = count_threads();
-    read_cpu(chart->cpu, sizeof chart->cpu);
+    chart->threads = turner_machine_threads();
+    turner_machine_cpu(chart->cpu, sizeof chart->cpu);
 }
 
 /* ---- kernels ---- */

@@ -21,6 +21,7 @@ static const struct {
     {"export", "write a scene for POV-Ray, a second opinion", turner_cmd_export},
     {"stability", "measure where methods fail, and that the defaults do not",
      turner_cmd_stability},
+    {"bench", "measure rays a second, against other tracers", turner_cmd_bench},
     {"devices", "list the devices and what each can do", turner_cmd_devices},
 };
 enum { command_count = sizeof commands / sizeof *commands };

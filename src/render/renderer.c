@@ -70,7 +70,7 @@ enum turner_result turner_kernel_create_from(struct turner_kernel *kernel, const
 {
     static const char *const names[] = {"TURNER_RAY_QUERY", "TURNER_F64", "TURNER_SPHERE_F64",
                                         "TURNER_RECORD", "TURNER_PROBE_HITS",
-                                        "TURNER_PROBE_RADIANCE"};
+                                        "TURNER_PROBE_RADIANCE", "TURNER_RAYS_SEND"};
     const char *defines[sizeof names / sizeof *names];
     size_t count = 0;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {

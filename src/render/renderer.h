@@ -14,6 +14,7 @@ enum turner_kernel_kind {
     TURNER_RECORD = 1 << 3,     /* notes down what it does for one pixel (render/explain.h) */
     TURNER_PROBE_HITS = 1 << 4, /* of probe.comp (render/probe.h): what rays meet */
     TURNER_PROBE_RADIANCE = 1 << 5, /* the same: the radiance they bring */
+    TURNER_RAYS_SEND = 1 << 6, /* of rays.comp (render/rays.h): rays sent on, not what they meet */
 };
 #define TURNER_KERNEL_KINDS 8 /* combinations */
 

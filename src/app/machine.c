@@ -1,0 +1,31 @@
+#include "app/machine.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+int turner_machine_threads(void)
+{
+    const char *limit = getenv("LP_NUM_THREADS"); /* of Mesa's CPU device */
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    int threads = limit ? atoi(limit) : 0;
+    return threads > 0 ? threads : cores > 0 ? (int)cores : 1;
+}
+
+void turner_machine_cpu(char *cpu, size_t size)
+{
+    static const char key[] = "model name";
+    FILE *file = fopen("/proc/cpuinfo", "r");
+    char line[256];
+    while (file && fgets(line, sizeof line, file)) {
+        char *colon = strchr(line, ':');
+        if (strncmp(line, key, sizeof key - 1) != 0 || !colon)
+            continue;
+        colon[strcspn(colon, "\n")] = 0;
+        snprintf(cpu, size, "%s", colon + 1 + strspn(colon + 1, " "));
+        break;
+    }
+    if (file)
+        fclose(file);
+}

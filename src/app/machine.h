@@ -1,0 +1,13 @@
+/* What times are of. */
+#ifndef TURNER_APP_MACHINE_H
+#define TURNER_APP_MACHINE_H
+
+#include <stddef.h>
+
+/* Threads that Mesa's CPU device has: one per core, or LP_NUM_THREADS. */
+int turner_machine_threads(void);
+
+/* The processor's name as the system has it; left as it is where that cannot be read. */
+void turner_machine_cpu(char *cpu, size_t size);
+
+#endif
