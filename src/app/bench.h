@@ -54,9 +54,18 @@ struct turner_bench_cell {
     size_t checked, wrong;  /* rays compared with the reference, and where it says otherwise */
 };
 
+/* Building what a tracer walks, from the scene's arrays in memory. */
+struct turner_bench_build {
+    int rounds;                          /* 0: not measured */
+    double seconds[TURNER_BENCH_ROUNDS];
+    double median, low, high, ratio;     /* seconds; ratio of "embree"'s to it, as above */
+    uint64_t bytes;                      /* that it takes, with the primitives */
+};
+
 struct turner_bench_scene {
     const char *name;
     size_t primitives, instances;
+    struct turner_bench_build builds[TURNER_BENCH_TRACERS];
     size_t rays[TURNER_BENCH_KINDS];
     struct turner_bench_cell cells[TURNER_BENCH_KINDS][TURNER_BENCH_TRACERS];
 };
@@ -66,6 +75,7 @@ struct turner_bench {
     int width, height, rounds, threads;
     size_t check;             /* rays of each stream to check by the reference, at least */
     bool kinds[TURNER_BENCH_KINDS];
+    bool growth;              /* the scenes are one, in growing sizes */
     char *const *with;        /* shader folders to measure beside ours, up to a NULL */
     char *const *tracers;     /* names to measure, up to a NULL; NULL: all */
     const char *output;       /* folder, or NULL */
@@ -78,11 +88,24 @@ struct turner_bench {
     struct turner_progress_bar bar;
 };
 
+/* The place of a tracer in every list of them, new if need be; -1 when it is not to be measured. */
+int turner_bench_slot(struct turner_bench *bench, const char *name);
+
 /* Measures `name` into *scene with the device that is open; `done` and `share` say which part of
  * the progress bar this is. */
 enum turner_result turner_bench_measure(struct turner_bench *bench,
                                         struct turner_bench_scene *scene, struct turner_gpu *gpu,
                                         struct turner_embree *embree, double done, double share);
+
+/* The builders alone (bench_build.c). */
+enum turner_result turner_bench_measure_builds(struct turner_bench *bench,
+                                               struct turner_bench_scene *result,
+                                               struct turner_gpu *gpu,
+                                               struct turner_embree *embree,
+                                               const struct turner_scene *scene);
+
+/* Of n rounds: the median of yardstick's by one's own. */
+double turner_bench_ratio(const double *yardstick, const double *own, int n);
 
 /* ---- checks (bench_check.c) ---- */
 
@@ -98,6 +121,15 @@ bool turner_bench_right(const struct turner_bench_cell *cell, size_t rays);
 
 /* ---- results (bench_report.c) ---- */
 void turner_bench_print(const struct turner_bench *bench);
+/* With bench.growth: a + b·log₂ n through the times of a ray, by least squares. */
+struct turner_bench_fit {
+    double a, b;     /* nanoseconds, and for each doubling of n */
+    double off;      /* largest distance of a size from it, as a share */
+};
+/* False when there are fewer than three sizes. */
+bool turner_bench_fit_log(struct turner_bench_fit *fit, const struct turner_bench *bench,
+                          size_t tracer, int kind);
+
 /* bench.csv, bench.json and the pictures; not while a device is open. */
 enum turner_result turner_bench_write(const struct turner_bench *bench);
 

@@ -26,6 +26,7 @@
 
 #define FUNCTIONS(F)                                                                               \
     F(rtcNewDevice) F(rtcReleaseDevice) F(rtcGetDeviceProperty) F(rtcGetDeviceError)               \
+    F(rtcSetDeviceMemoryMonitorFunction)                                                           \
     F(rtcNewScene) F(rtcReleaseScene) F(rtcCommitScene) F(rtcSetSceneBuildQuality)                 \
     F(rtcSetSceneFlags) F(rtcAttachGeometryByID) F(rtcNewGeometry) F(rtcReleaseGeometry)           \
     F(rtcCommitGeometry) F(rtcSetNewGeometryBuffer) F(rtcSetGeometryInstancedScene)                \
@@ -39,6 +40,7 @@ struct turner_embree {
     RTCDevice device;
     int threads;
     char name[32];
+    atomic_llong bytes;
 };
 
 /* Geometries of a group: `id[g]` is turner's id of the first primitive of geometry g. */
@@ -54,6 +56,14 @@ struct turner_embree_scene {
     size_t group_count;
     uint32_t *instance_groups; /* of geometry groups[0].count + i */
 };
+
+static bool count_bytes(void *user, ssize_t bytes, bool after)
+{
+    struct turner_embree *embree = user;
+    (void)after;
+    atomic_fetch_add(&embree->bytes, bytes);
+    return true;
+}
 
 struct turner_embree *turner_embree_open(int threads, const char **why)
 {
@@ -74,6 +84,7 @@ struct turner_embree *turner_embree_open(int threads, const char **why)
         turner_embree_close(embree);
         return NULL;
     }
+    embree->rtcSetDeviceMemoryMonitorFunction(embree->device, count_bytes, embree);
     long version = (long)embree->rtcGetDeviceProperty(embree->device, RTC_DEVICE_PROPERTY_VERSION);
     snprintf(embree->name, sizeof embree->name, "Embree %ld.%ld.%ld", version / 10000,
              version / 100 % 100, version % 100);
@@ -94,6 +105,11 @@ void turner_embree_close(struct turner_embree *embree)
 const char *turner_embree_name(const struct turner_embree *embree)
 {
     return embree->name;
+}
+
+uint64_t turner_embree_bytes(const struct turner_embree *embree)
+{
+    return (uint64_t)atomic_load(&embree->bytes);
 }
 
 bool turner_embree_can(const struct turner_scene *scene)
@@ -409,6 +425,12 @@ const char *turner_embree_name(const struct turner_embree *embree)
 {
     (void)embree;
     return "";
+}
+
+uint64_t turner_embree_bytes(const struct turner_embree *embree)
+{
+    (void)embree;
+    return 0;
 }
 
 bool turner_embree_can(const struct turner_scene *scene)

@@ -30,6 +30,9 @@ enum turner_result turner_embree_scene_create(struct turner_embree_scene **out,
                                               double *seconds);
 void turner_embree_scene_destroy(struct turner_embree_scene *scene);
 
+/* Bytes that all scenes of the device take now, by Embree's count. */
+uint64_t turner_embree_bytes(const struct turner_embree *embree);
+
 /* Traces all rays `passes` times on all threads, one by one or in packets of 8 (`width`); nearest
  * hits by rtcIntersect, rays of kind TURNER_RAY_ANY by rtcOccluded (all rays are of one kind).
  * `coherent` tells packets that the rays of each go the same way. hits[count] are as turner's;

@@ -118,20 +118,38 @@ static bool wanted(const struct turner_bench *bench, const char *name)
     return true;
 }
 
-/* The place of a tracer, the same for every scene; NULL when it is not to be measured. */
-static struct turner_bench_tracer *place(struct stage *stage, const char *name)
+int turner_bench_slot(struct turner_bench *bench, const char *name)
 {
-    struct turner_bench *bench = stage->bench;
-    if (!wanted(bench, name))
-        return NULL;
     size_t i = 0;
+    if (!wanted(bench, name))
+        return -1;
     while (i < bench->tracer_count && strcmp(bench->names[i], name) != 0)
         i++;
     if (i == TURNER_BENCH_TRACERS)
-        return NULL;
+        return -1;
     if (i == bench->tracer_count)
         snprintf(bench->names[bench->tracer_count++], sizeof *bench->names, "%s", name);
-    return &stage->tracers[i];
+    return (int)i;
+}
+
+/* In the order of columns; those that are not there leave theirs empty. */
+static void make_slots(struct turner_bench *bench)
+{
+    static const char *const rest[] = {"ray_query", "embree", "embree 8", "embree robust"};
+    char name[64];
+    turner_bench_slot(bench, "bvh");
+    for (char *const *with = bench->with; with && *with; with++) {
+        snprintf(name, sizeof name, "bvh %.58s", *with);
+        turner_bench_slot(bench, name);
+    }
+    for (size_t i = 0; i < sizeof rest / sizeof *rest; i++)
+        turner_bench_slot(bench, rest[i]);
+}
+
+static struct turner_bench_tracer *place(struct stage *stage, const char *name)
+{
+    int slot = turner_bench_slot(stage->bench, name);
+    return slot < 0 ? NULL : &stage->tracers[slot];
 }
 
 static enum turner_result add_own(struct stage *stage, const char *name,
@@ -201,10 +219,19 @@ static enum turner_result trace(double *seconds, struct turner_gpu_hit *hits,
 
 /* ---- one stream ---- */
 
+double turner_bench_ratio(const double *yardstick, const double *own, int n)
+{
+    double ratios[TURNER_BENCH_ROUNDS], quartiles[3];
+    for (int i = 0; i < n; i++)
+        ratios[i] = yardstick[i] / own[i];
+    turner_chart_quartiles(quartiles, ratios, n);
+    return quartiles[1];
+}
+
 static void sum_up(struct turner_bench_cell *cell, const struct turner_bench_cell *yardstick,
                    size_t rays)
 {
-    double ratios[TURNER_BENCH_ROUNDS], quartiles[3];
+    double quartiles[3];
     cell->ratio = NAN;
     if (!cell->rounds)
         return;
@@ -212,12 +239,8 @@ static void sum_up(struct turner_bench_cell *cell, const struct turner_bench_cel
     cell->rate = (double)rays / quartiles[1];
     cell->low = (double)rays / quartiles[2];
     cell->high = (double)rays / quartiles[0];
-    if (!yardstick || !yardstick->rounds)
-        return;
-    for (int i = 0; i < cell->rounds; i++)
-        ratios[i] = yardstick->seconds[i] / cell->seconds[i];
-    turner_chart_quartiles(quartiles, ratios, cell->rounds);
-    cell->ratio = quartiles[1];
+    if (yardstick && yardstick->rounds)
+        cell->ratio = turner_bench_ratio(yardstick->seconds, cell->seconds, cell->rounds);
 }
 
 /* The first pass compiles; what it finds is checked. Returns in passes[] how many to measure. */
@@ -231,7 +254,7 @@ static enum turner_result try_out(int *passes, struct stage *stage, enum turner_
         struct turner_bench_tracer *tracer = &stage->tracers[i];
         double seconds;
         if (!present(tracer)) {
-            snprintf(cells[i].left_out, sizeof cells[i].left_out, "not for this scene");
+            snprintf(cells[i].left_out, sizeof cells[i].left_out, "-");
             continue;
         }
         hits[i] = turner_calloc(stream->count, sizeof **hits);
@@ -330,6 +353,8 @@ static enum turner_result measure(struct stage *stage)
         result->primitives += turner_group_primitive_count(&stage->scene->groups[i]);
     result->primitives += stage->scene->plane_count;
     result->instances = stage->scene->instance_count;
+    TURNER_TRY(turner_bench_measure_builds(bench, result, stage->gpu, stage->embree,
+                                           stage->scene));
     TURNER_TRY(turner_world_create(&stage->world, stage->scene));
     TURNER_TRY(make_streams(stage));
     TURNER_TRY(open_tracers(stage));
@@ -347,6 +372,7 @@ enum turner_result turner_bench_measure(struct turner_bench *bench,
     struct stage *stage = turner_calloc(1, sizeof *stage);
     *stage = (struct stage){.bench = bench, .result = scene, .gpu = gpu, .embree = embree,
                             .done = done, .share = share};
+    make_slots(bench);
     bench->bar.what = scene->name;
     turner_progress_show(done, &bench->bar);
     enum turner_result result = measure(stage);

@@ -11,6 +11,21 @@
 
 #define COLUMN 21 /* characters */
 
+/* Columns of a UTF-8 text. */
+static int columns_of(const char *text)
+{
+    int columns = 0;
+    for (; *text; text++)
+        columns += (*text & 0xc0) != 0x80;
+    return columns;
+}
+
+static void print_padded(const char *text)
+{
+    int columns = columns_of(text);
+    printf("  %s%*s", text, columns < COLUMN ? COLUMN - columns : 0, "");
+}
+
 static void print_cell(const struct turner_bench_cell *cell)
 {
     char text[64];
@@ -22,10 +37,32 @@ static void print_cell(const struct turner_bench_cell *cell)
     int used = snprintf(text, sizeof text, "%7.2f ±%3.0f %%", 1e-6 * cell->rate, spread);
     if (!isnan(cell->ratio))
         snprintf(text + used, sizeof text - (size_t)used, " %5.2f×", cell->ratio);
-    int columns = 0; /* of UTF-8 */
-    for (const char *c = text; *c; c++)
-        columns += (*c & 0xc0) != 0x80;
-    printf("  %s%*s", text, columns < COLUMN ? COLUMN - columns : 0, "");
+    print_padded(text);
+}
+
+static void print_builds(const struct turner_bench *bench, const struct turner_bench_scene *scene)
+{
+    printf("%-19s", "build, ms");
+    for (size_t i = 0; i < bench->tracer_count; i++) {
+        const struct turner_bench_build *build = &scene->builds[i];
+        char text[64] = "-";
+        if (build->rounds) {
+            double spread = 50 * (build->high - build->low) / build->median;
+            int used = snprintf(text, sizeof text, "%7.1f ±%3.0f %%", 1e3 * build->median, spread);
+            if (!isnan(build->ratio))
+                snprintf(text + used, sizeof text - (size_t)used, " %5.2f×", build->ratio);
+        }
+        print_padded(text);
+    }
+    printf("\n%-19s", "bytes a primitive");
+    for (size_t i = 0; i < bench->tracer_count; i++) {
+        const struct turner_bench_build *build = &scene->builds[i];
+        char text[64] = "-";
+        if (build->rounds)
+            snprintf(text, sizeof text, "%7.1f", (double)build->bytes / (double)scene->primitives);
+        print_padded(text);
+    }
+    putchar('\n');
 }
 
 static void print_scene(const struct turner_bench *bench, const struct turner_bench_scene *scene)
@@ -45,6 +82,21 @@ static void print_scene(const struct turner_bench *bench, const struct turner_be
             print_cell(&scene->cells[kind][i]);
         putchar('\n');
     }
+    print_builds(bench, scene);
+}
+
+static void print_growth(const struct turner_bench *bench)
+{
+    struct turner_bench_fit fit;
+    printf("\ngrowth: nanoseconds a ray among n primitives\n");
+    for (size_t i = 0; i < bench->tracer_count; i++) {
+        for (int kind = 0; kind < TURNER_BENCH_KINDS; kind++) {
+            if (turner_bench_fit_log(&fit, bench, i, kind))
+                printf("%-14s %-9s %+7.1f %+6.1f log2 n, every size within %.0f %%\n",
+                       bench->names[i], turner_bench_kind_names[kind], fit.a, fit.b,
+                       100 * fit.off);
+        }
+    }
 }
 
 void turner_bench_print(const struct turner_bench *bench)
@@ -55,6 +107,8 @@ void turner_bench_print(const struct turner_bench *bench)
            "× times embree's\n", bench->rounds);
     for (size_t i = 0; i < bench->scene_count; i++)
         print_scene(bench, &bench->scenes[i]);
+    if (bench->growth)
+        print_growth(bench);
 }
 
 /* ---- files ---- */
@@ -91,6 +145,39 @@ static void print_csv(FILE *out, const struct turner_bench *bench)
             }
         }
     }
+}
+
+static void print_build_csv(FILE *out, const struct turner_bench *bench)
+{
+    fprintf(out, "scene,primitives,instances,tracer,rounds,seconds,first_quartile,third_quartile,"
+                 "ratio_to_embree,bytes\n");
+    for (size_t s = 0; s < bench->scene_count; s++) {
+        const struct turner_bench_scene *scene = &bench->scenes[s];
+        for (size_t i = 0; i < bench->tracer_count; i++) {
+            const struct turner_bench_build *build = &scene->builds[i];
+            if (!build->rounds)
+                continue;
+            fprintf(out, "\"%s\",%zu,%zu,\"%s\",%d,%.6g,%.6g,%.6g,", scene->name,
+                    scene->primitives, scene->instances, bench->names[i], build->rounds,
+                    build->median, build->low, build->high);
+            if (!isnan(build->ratio))
+                fprintf(out, "%.4f", build->ratio);
+            fprintf(out, ",%llu\n", (unsigned long long)build->bytes);
+        }
+    }
+}
+
+static cJSON *build_json(const struct turner_bench_build *build, const char *tracer)
+{
+    cJSON *object = cJSON_CreateObject();
+    cJSON_AddStringToObject(object, "tracer", tracer);
+    cJSON_AddNumberToObject(object, "seconds", build->median);
+    cJSON_AddNumberToObject(object, "first_quartile", build->low);
+    cJSON_AddNumberToObject(object, "third_quartile", build->high);
+    if (!isnan(build->ratio))
+        cJSON_AddNumberToObject(object, "ratio_to_embree", build->ratio);
+    cJSON_AddNumberToObject(object, "bytes", (double)build->bytes);
+    return object;
 }
 
 static cJSON *cell_json(const struct turner_bench_cell *cell, const char *tracer)
@@ -130,7 +217,32 @@ static cJSON *scene_json(const struct turner_bench *bench, const struct turner_b
             cJSON_AddItemToArray(cells, cell_json(&scene->cells[kind][i], bench->names[i]));
         cJSON_AddItemToArray(streams, stream);
     }
+    cJSON *builds = cJSON_AddArrayToObject(object, "builds");
+    for (size_t i = 0; i < bench->tracer_count; i++) {
+        if (scene->builds[i].rounds)
+            cJSON_AddItemToArray(builds, build_json(&scene->builds[i], bench->names[i]));
+    }
     return object;
+}
+
+static cJSON *growth_json(const struct turner_bench *bench)
+{
+    cJSON *fits = cJSON_CreateArray();
+    struct turner_bench_fit fit;
+    for (size_t i = 0; i < bench->tracer_count; i++) {
+        for (int kind = 0; kind < TURNER_BENCH_KINDS; kind++) {
+            if (!turner_bench_fit_log(&fit, bench, i, kind))
+                continue;
+            cJSON *object = cJSON_CreateObject();
+            cJSON_AddStringToObject(object, "tracer", bench->names[i]);
+            cJSON_AddStringToObject(object, "rays", turner_bench_kind_names[kind]);
+            cJSON_AddNumberToObject(object, "nanoseconds", fit.a);
+            cJSON_AddNumberToObject(object, "nanoseconds_per_doubling", fit.b);
+            cJSON_AddNumberToObject(object, "largest_distance", fit.off);
+            cJSON_AddItemToArray(fits, object);
+        }
+    }
+    return fits;
 }
 
 static enum turner_result write_json(const struct turner_bench *bench)
@@ -146,6 +258,8 @@ static enum turner_result write_json(const struct turner_bench *bench)
     cJSON *scenes = cJSON_AddArrayToObject(root, "scenes");
     for (size_t i = 0; i < bench->scene_count; i++)
         cJSON_AddItemToArray(scenes, scene_json(bench, &bench->scenes[i]));
+    if (bench->growth)
+        cJSON_AddItemToObject(root, "growth", growth_json(bench));
     char *text = cJSON_Print(root);
     enum turner_result result = write_file(bench, "bench.json", text);
     cJSON_free(text);
@@ -153,18 +267,25 @@ static enum turner_result write_json(const struct turner_bench *bench)
     return result;
 }
 
-enum turner_result turner_bench_write(const struct turner_bench *bench)
+static enum turner_result write_csv(const struct turner_bench *bench, const char *name,
+                                    void (*print)(FILE *out, const struct turner_bench *bench))
 {
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     if (!out)
         return turner_fail(TURNER_OUTPUT, "no memory for the table");
-    print_csv(out, bench);
+    print(out, bench);
     fclose(out);
-    enum turner_result result = write_file(bench, "bench.csv", text);
+    enum turner_result result = write_file(bench, name, text);
     free(text);
-    if (result == TURNER_OK)
-        result = write_json(bench);
-    return result == TURNER_OK ? turner_plot("bench", &bench->output, 1) : result;
+    return result;
+}
+
+enum turner_result turner_bench_write(const struct turner_bench *bench)
+{
+    TURNER_TRY(write_csv(bench, "bench.csv", print_csv));
+    TURNER_TRY(write_csv(bench, "build.csv", print_build_csv));
+    TURNER_TRY(write_json(bench));
+    return turner_plot("bench", &bench->output, 1);
 }

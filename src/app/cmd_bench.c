@@ -1,4 +1,5 @@
 #include <getopt.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +20,11 @@ static void print_help(void)
          "docs/performance.md says how to read it.\n\n"
          "SCENE is a file, sphereflake:LEVEL (9^LEVEL spheres and more) or mesh:TRIANGLES.\n"
          "Without one: sphereflake:4 sphereflake:5 mesh:100000 mesh:1000000.\n\n"
-         "  -o, --output FOLDER  write bench.csv, bench.json and pictures (python3 with matplotlib)\n"
+         "  -o, --output FOLDER  write bench.csv, build.csv, bench.json and pictures (python3 with\n"
+         "                       matplotlib)\n"
+         "      --growth[=MOST]  instead of scenes: meshes of 10 thousand triangles to MOST\n"
+         "                       (1000000), camera and random rays, and a fit of the time a ray\n"
+         "                       takes by the logarithm\n"
          "  -s, --size WxH       camera rays (1024x1024)\n"
          "      --rays A,B       camera, shadow, mirror 1, mirror 2, mirror 3, random (all)\n"
          "      --tracers A,B    bvh, ray_query, embree, embree 8 (packets), embree robust (all)\n"
@@ -47,6 +52,7 @@ struct arguments {
     char **names[2];    /* kinds, tracers */
     char **with;
     size_t with_count, with_capacity;
+    int growth; /* largest size; 0: no */
     bool quiet, help;
 };
 
@@ -92,7 +98,8 @@ static enum turner_result choose_tracers(struct arguments *a)
 
 static enum turner_result parse(struct arguments *a, int argc, char **argv)
 {
-    enum { OPTION_RAYS = 256, OPTION_TRACERS, OPTION_WITH, OPTION_CHECK, OPTION_THREADS };
+    enum { OPTION_RAYS = 256, OPTION_TRACERS, OPTION_WITH, OPTION_CHECK, OPTION_THREADS,
+           OPTION_GROWTH };
     static const struct option options[] = {
         {"output", required_argument, NULL, 'o'},
         {"size", required_argument, NULL, 's'},
@@ -102,6 +109,7 @@ static enum turner_result parse(struct arguments *a, int argc, char **argv)
         {"rounds", required_argument, NULL, 'r'},
         {"check", required_argument, NULL, OPTION_CHECK},
         {"threads", required_argument, NULL, OPTION_THREADS},
+        {"growth", optional_argument, NULL, OPTION_GROWTH},
         {"device", required_argument, NULL, 'd'},
         {"quiet", no_argument, NULL, 'q'},
         {"help", no_argument, NULL, 'h'},
@@ -125,6 +133,10 @@ static enum turner_result parse(struct arguments *a, int argc, char **argv)
         case OPTION_THREADS:
             TURNER_TRY(turner_option_int(&b->threads, "--threads", optarg, 1, 1024));
             break;
+        case OPTION_GROWTH:
+            TURNER_TRY(turner_option_int(&a->growth, "--growth", optarg ? optarg : "1000000",
+                                         10000, 100000000));
+            break;
         case 'd': a->device = optarg; break;
         case 'q': a->quiet = true; break;
         case 'h': a->help = true; return TURNER_OK;
@@ -138,6 +150,14 @@ static enum turner_result parse(struct arguments *a, int argc, char **argv)
     *TURNER_PUSH(a->with, a->with_count, a->with_capacity) = NULL;
     b->with = a->with;
     a->with_count--;
+    b->growth = a->growth;
+    if (a->growth && optind < argc)
+        return turner_fail(TURNER_USAGE, "--growth makes its own scenes; leave out \"%s\"",
+                           argv[optind]);
+    if (a->growth && !a->names[0])
+        split(a, 0, "camera,random");
+    if (a->growth && !a->names[1])
+        split(a, 1, "bvh,embree");
     TURNER_TRY(choose_kinds(a));
     TURNER_TRY(choose_tracers(a));
     return TURNER_OK;
@@ -202,10 +222,24 @@ static enum turner_result run(struct arguments *a, char *const *names, size_t co
     return result;
 }
 
+/* Scenes of turner's own. */
+static enum turner_result run_own(struct arguments *a)
+{
+    char own[16][32] = {"sphereflake:4", "sphereflake:5", "mesh:100000", "mesh:1000000"};
+    char *names[16];
+    size_t count = 4;
+    if (a->growth) {
+        count = 0;
+        for (double size = 1e4; size < 1.001 * a->growth; size *= sqrt(10))
+            snprintf(own[count++], sizeof *own, "mesh:%.0f", size);
+    }
+    for (size_t i = 0; i < count; i++)
+        names[i] = own[i];
+    return run(a, names, count);
+}
+
 enum turner_result turner_cmd_bench(int argc, char **argv)
 {
-    static char own[4][16] = {"sphereflake:4", "sphereflake:5", "mesh:100000", "mesh:1000000"};
-    char *const own_names[] = {own[0], own[1], own[2], own[3]};
     struct arguments a = {.bench = {.width = 1024, .height = 1024, .rounds = 7,
                                     .threads = turner_machine_threads()}};
     enum turner_result result = parse(&a, argc, argv);
@@ -214,7 +248,7 @@ enum turner_result turner_cmd_bench(int argc, char **argv)
     turner_set_quiet(a.quiet);
     if (result == TURNER_OK && !a.help)
         result = optind < argc ? run(&a, argv + optind, (size_t)(argc - optind))
-                               : run(&a, own_names, sizeof own_names / sizeof *own_names);
+                               : run_own(&a);
     for (int i = 0; i < 2; i++) {
         free(a.lists[i]);
         free(a.names[i]);
