@@ -22,6 +22,13 @@ install(TARGETS libturner turner EXPORT turnerTargets
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     PUBLIC_HEADER DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+if(TARGET turner_oiio) # beside the library, found from wherever both lie
+    set(turner_module_dir ${CMAKE_INSTALL_LIBDIR}/turner)
+    install(TARGETS turner_oiio LIBRARY DESTINATION ${turner_module_dir})
+    file(RELATIVE_PATH turner_from_bin /${CMAKE_INSTALL_BINDIR} /${turner_module_dir})
+    set_property(TARGET turner PROPERTY INSTALL_RPATH $ORIGIN/${turner_from_bin})
+    set_property(TARGET libturner PROPERTY INSTALL_RPATH $ORIGIN/turner)
+endif()
 install(DIRECTORY shaders scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/turner)
 
 # ---- CMake package: turner::libturner, turner::turner, turner_add_image_test ----
@@ -43,7 +50,7 @@ if(BUILD_SHARED_LIBS)
     set(turner_pc_requires)
     set(turner_pc_libs)
 else()
-    set(turner_pc_requires "libcjson OpenImageIO assimp vulkan spirv-cross-c-shared")
+    set(turner_pc_requires "libcjson libpng OpenEXR OpenImageIO assimp vulkan spirv-cross-c-shared")
     # glslang's own .pc names other libraries in every version, and not always all.
     set(glslang_libs -lglslang-default-resource-limits -lSPIRV -lglslang -lMachineIndependent
                      -lGenericCodeGen -lOSDependent)

@@ -1,8 +1,18 @@
-/* What src/image shares between its C files and the one C++ file that speaks to OpenImageIO. */
+/* What src/image shares between the files that speak to the libraries of picture formats: PNG and
+ * OpenEXR are written by their own, everything else and all reading is OpenImageIO's (oiio.h). */
 #ifndef TURNER_IMAGE_CODEC_H
 #define TURNER_IMAGE_CODEC_H
 
 #include "image/image.h"
+
+/* A file in memory; free `at`. Zeroed is empty. */
+struct turner_bytes {
+    uint8_t *at;
+    size_t size, capacity;
+};
+
+/* Makes room for `capacity` bytes in all; those beyond `size` are undefined. */
+void turner_bytes_reserve(struct turner_bytes *bytes, size_t capacity);
 
 enum turner_sample { TURNER_SAMPLE_U8, TURNER_SAMPLE_U16, TURNER_SAMPLE_FLOAT };
 
@@ -13,15 +23,24 @@ struct turner_format {
     enum turner_sample sample;
     bool nonfinite; /* the format can hold NaN and infinity */
     bool channels;  /* it can hold more than RGB, each of a type of its own */
+    /* Appends the file to `bytes`; `path` is for messages. NULL: by OpenImageIO. */
+    enum turner_result (*encode)(struct turner_bytes *bytes, const char *path,
+                                 const struct turner_format *format,
+                                 const struct turner_image *image,
+                                 const struct turner_image_encoding *encoding);
 };
+
+enum turner_result turner_encode_png(struct turner_bytes *bytes, const char *path,
+                                     const struct turner_format *format,
+                                     const struct turner_image *image,
+                                     const struct turner_image_encoding *encoding);
+enum turner_result turner_encode_exr(struct turner_bytes *bytes, const char *path,
+                                     const struct turner_format *format,
+                                     const struct turner_image *image,
+                                     const struct turner_image_encoding *encoding);
 
 /* The format for the ending of `path`; NULL and TURNER_USAGE's message when there is none. */
 const struct turner_format *turner_format_find(const char *path);
-
-/* Rows `row` … `row` + `rows` − 1 with the channels of `encoding` behind RGB, for formats that have
- * room for them: rows × width × (3 + channel_count) words of 4 bytes, floats or whole numbers. */
-void turner_format_pack_rows(uint32_t *words, const struct turner_image *image,
-                             const struct turner_image_encoding *encoding, int row, int rows);
 
 /* width × height × 3 samples as turner_format says, owned by the caller (free). Applies exposure,
  * curve and rounding to integer formats. */

@@ -23,15 +23,15 @@ double turner_linear_to_srgb(double v)
 
 /* Longer endings first. */
 static const struct turner_format formats[] = {
-    {".16.png", "png", TURNER_SAMPLE_U16, false, false},
-    {".png", "png", TURNER_SAMPLE_U8, false, false},
-    {".exr", "openexr", TURNER_SAMPLE_FLOAT, true, true},
-    {".hdr", "hdr", TURNER_SAMPLE_FLOAT, false, false},
-    {".tif", "tiff", TURNER_SAMPLE_FLOAT, true, false},
-    {".tiff", "tiff", TURNER_SAMPLE_FLOAT, true, false},
-    {".jpg", "jpeg", TURNER_SAMPLE_U8, false, false},
-    {".jpeg", "jpeg", TURNER_SAMPLE_U8, false, false},
-    {".ppm", "pnm", TURNER_SAMPLE_U8, false, false},
+    {".16.png", "png", TURNER_SAMPLE_U16, false, false, turner_encode_png},
+    {".png", "png", TURNER_SAMPLE_U8, false, false, turner_encode_png},
+    {".exr", "openexr", TURNER_SAMPLE_FLOAT, true, true, turner_encode_exr},
+    {".hdr", "hdr", TURNER_SAMPLE_FLOAT, false, false, NULL},
+    {".tif", "tiff", TURNER_SAMPLE_FLOAT, true, false, NULL},
+    {".tiff", "tiff", TURNER_SAMPLE_FLOAT, true, false, NULL},
+    {".jpg", "jpeg", TURNER_SAMPLE_U8, false, false, NULL},
+    {".jpeg", "jpeg", TURNER_SAMPLE_U8, false, false, NULL},
+    {".ppm", "pnm", TURNER_SAMPLE_U8, false, false, NULL},
 };
 
 const struct turner_format *turner_format_find(const char *path)
@@ -81,22 +81,6 @@ void *turner_format_pack(const struct turner_format *format, const struct turner
         }
     }
     return samples;
-}
-
-void turner_format_pack_rows(uint32_t *words, const struct turner_image *image,
-                             const struct turner_image_encoding *encoding, int row, int rows)
-{
-    size_t first = (size_t)row * (size_t)image->width;
-    size_t count = (size_t)rows * (size_t)image->width;
-    for (size_t i = first; i < first + count; i++) {
-        memcpy(words, image->rgba + 4 * i, 3 * sizeof *words);
-        words += 3;
-        for (size_t c = 0; c < encoding->channel_count; c++) {
-            const struct turner_image_channel *channel = &encoding->channels[c];
-            memcpy(words++, (const uint32_t *)channel->values + i * channel->stride,
-                   sizeof *words);
-        }
-    }
 }
 
 enum turner_result turner_image_check_channels(const char *path)

@@ -1,4 +1,4 @@
-/* Linear float pictures: files (through OpenImageIO), encoding, comparison. */
+/* Linear float pictures: files, encoding, comparison. */
 #ifndef TURNER_IMAGE_IMAGE_H
 #define TURNER_IMAGE_IMAGE_H
 
@@ -56,8 +56,8 @@ enum turner_result turner_image_check_writable(const char *path);
  * integers (8/16-bit) are decoded from sRGB to linear when `srgb` is true, else their values are
  * taken as they are, scaled to [0,1]; floats are always taken as they are. Grey is spread to RGB;
  * alpha is dropped, without multiplying by it (the fourth float is 0). TURNER_BAD_INPUT with the
- * reason, TURNER_DEVICE when it does not fit into memory. Free with turner_image_destroy, also
- * after a failure. */
+ * reason, TURNER_DEVICE when it does not fit into memory or OpenImageIO is not there. Free with
+ * turner_image_destroy, also after a failure. */
 enum turner_result turner_image_read(struct turner_image *image, const char *path, bool srgb);
 
 /* Removes the file aside of a write that is under way, in whatever thread; async-signal-safe, to

@@ -42,3 +42,15 @@ execute_process(COMMAND ${prefix}/bin/turner render
 if(NOT EXISTS ${WORK}/picture.png)
     message(FATAL_ERROR "the installed turner made no picture")
 endif()
+
+# ---- the module for other formats: found there, and what is said without it ----
+file(GLOB modules ${prefix}/${LIBDIR}/turner/turner-oiio.*)
+if(modules) # a static build has it linked in
+    run(${prefix}/bin/turner compare ${WORK}/picture.png ${WORK}/picture.png)
+    file(REMOVE ${modules})
+    execute_process(COMMAND ${prefix}/bin/turner compare ${WORK}/picture.png ${WORK}/picture.png
+                    RESULT_VARIABLE status ERROR_VARIABLE said)
+    if(NOT status EQUAL 4 OR NOT said MATCHES "turner-oiio.*cannot be loaded.*install turner")
+        message(FATAL_ERROR "without its module turner ends with ${status}: ${said}")
+    endif()
+endif()
