@@ -2,6 +2,8 @@
 #ifndef TURNER_APP_BENCH_H
 #define TURNER_APP_BENCH_H
 
+#include <stdio.h>
+
 #include "app/app.h"
 #include "app/bench_embree.h"
 #include "reference/world.h"
@@ -70,6 +72,17 @@ struct turner_bench_scene {
     struct turner_bench_cell cells[TURNER_BENCH_KINDS][TURNER_BENCH_TRACERS];
 };
 
+#define TURNER_BENCH_STAGES 24
+
+/* turner render on one scene, with empty [0] and full [1] caches. */
+struct turner_bench_stages {
+    const char *name;
+    size_t count;
+    char names[TURNER_BENCH_STAGES][24];
+    double seconds[2][TURNER_BENCH_STAGES]; /* medians */
+    double wall[2][3];                      /* of the whole process: quartiles */
+};
+
 struct turner_bench {
     /* settings */
     int width, height, rounds, threads;
@@ -79,11 +92,13 @@ struct turner_bench {
     char *const *with;        /* shader folders to measure beside ours, up to a NULL */
     char *const *tracers;     /* names to measure, up to a NULL; NULL: all */
     const char *output;       /* folder, or NULL */
+    const char *wanted;       /* device, or NULL */
     /* what it runs on */
     char device[256], driver[512], cpu[128], embree[64]; /* the last says why there is none */
     char names[TURNER_BENCH_TRACERS][64];
     size_t tracer_count;
-    struct turner_bench_scene *scenes;
+    struct turner_bench_scene *scenes;  /* or */
+    struct turner_bench_stages *stages;
     size_t scene_count;
     struct turner_progress_bar bar;
 };
@@ -103,6 +118,11 @@ enum turner_result turner_bench_measure_builds(struct turner_bench *bench,
                                                struct turner_gpu *gpu,
                                                struct turner_embree *embree,
                                                const struct turner_scene *scene);
+
+/* bench->stages (bench_stages.c), and their tables. Not while a device is open. */
+enum turner_result turner_bench_measure_stages(struct turner_bench *bench);
+void turner_bench_print_stages(const struct turner_bench *bench);
+void turner_bench_print_stages_csv(FILE *out, const struct turner_bench *bench);
 
 /* Of n rounds: the median of yardstick's by one's own. */
 double turner_bench_ratio(const double *yardstick, const double *own, int n);

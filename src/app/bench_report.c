@@ -101,8 +101,12 @@ static void print_growth(const struct turner_bench *bench)
 
 void turner_bench_print(const struct turner_bench *bench)
 {
-    printf("turner %s; %s, %s; %d threads of %s; %s\n", turner_version(), bench->device,
-           bench->driver, bench->threads, bench->cpu, bench->embree);
+    printf("turner %s; %s, %s; %d threads of %s%s%s\n", turner_version(), bench->device,
+           bench->driver, bench->threads, bench->cpu, *bench->embree ? "; " : "", bench->embree);
+    if (bench->stages) {
+        turner_bench_print_stages(bench);
+        return;
+    }
     printf("million rays a second, median of %d rounds ± half the distance of the quartiles; "
            "× times embree's\n", bench->rounds);
     for (size_t i = 0; i < bench->scene_count; i++)
@@ -284,6 +288,8 @@ static enum turner_result write_csv(const struct turner_bench *bench, const char
 
 enum turner_result turner_bench_write(const struct turner_bench *bench)
 {
+    if (bench->stages)
+        return write_csv(bench, "stages.csv", turner_bench_print_stages_csv);
     TURNER_TRY(write_csv(bench, "bench.csv", print_csv));
     TURNER_TRY(write_csv(bench, "build.csv", print_build_csv));
     TURNER_TRY(write_json(bench));

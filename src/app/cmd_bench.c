@@ -22,6 +22,9 @@ static void print_help(void)
          "Without one: sphereflake:4 sphereflake:5 mesh:100000 mesh:1000000.\n\n"
          "  -o, --output FOLDER  write bench.csv, build.csv, bench.json and pictures (python3 with\n"
          "                       matplotlib)\n"
+         "      --stages         instead of rays: turner render of each SCENE, a file, from start to\n"
+         "                       end, and where the time goes; with empty caches and full ones\n"
+         "                       (stages.csv)\n"
          "      --growth[=MOST]  instead of scenes: meshes of 10 thousand triangles to MOST\n"
          "                       (1000000), camera and random rays, and a fit of the time a ray\n"
          "                       takes by the logarithm\n"
@@ -42,18 +45,18 @@ static void print_help(void)
          "Examples:\n"
          "  turner bench -o bench && xdg-open bench/bench.png\n"
          "  turner bench --rays camera,shadow --tracers bvh,embree mesh:100000 scenes/forest.json\n"
+         "  turner bench --stages scenes/prism.json scenes/mesh.json\n"
          "  turner bench --with my_shaders --tracers 'bvh,bvh my_shaders' sphereflake:4");
 }
 
 struct arguments {
     struct turner_bench bench;
-    const char *device;
     char *lists[2];     /* texts that names point into */
     char **names[2];    /* kinds, tracers */
     char **with;
     size_t with_count, with_capacity;
     int growth; /* largest size; 0: no */
-    bool quiet, help;
+    bool stages, quiet, help;
 };
 
 /* Splits a copy of `text` at commas: names up to a NULL. */
@@ -99,7 +102,7 @@ static enum turner_result choose_tracers(struct arguments *a)
 static enum turner_result parse(struct arguments *a, int argc, char **argv)
 {
     enum { OPTION_RAYS = 256, OPTION_TRACERS, OPTION_WITH, OPTION_CHECK, OPTION_THREADS,
-           OPTION_GROWTH };
+           OPTION_GROWTH, OPTION_STAGES };
     static const struct option options[] = {
         {"output", required_argument, NULL, 'o'},
         {"size", required_argument, NULL, 's'},
@@ -109,6 +112,7 @@ static enum turner_result parse(struct arguments *a, int argc, char **argv)
         {"rounds", required_argument, NULL, 'r'},
         {"check", required_argument, NULL, OPTION_CHECK},
         {"threads", required_argument, NULL, OPTION_THREADS},
+        {"stages", no_argument, NULL, OPTION_STAGES},
         {"growth", optional_argument, NULL, OPTION_GROWTH},
         {"device", required_argument, NULL, 'd'},
         {"quiet", no_argument, NULL, 'q'},
@@ -137,7 +141,8 @@ static enum turner_result parse(struct arguments *a, int argc, char **argv)
             TURNER_TRY(turner_option_int(&a->growth, "--growth", optarg ? optarg : "1000000",
                                          10000, 100000000));
             break;
-        case 'd': a->device = optarg; break;
+        case OPTION_STAGES: a->stages = true; break;
+        case 'd': b->wanted = optarg; break;
         case 'q': a->quiet = true; break;
         case 'h': a->help = true; return TURNER_OK;
         default: return turner_bad_option(argv);
@@ -154,6 +159,9 @@ static enum turner_result parse(struct arguments *a, int argc, char **argv)
     if (a->growth && optind < argc)
         return turner_fail(TURNER_USAGE, "--growth makes its own scenes; leave out \"%s\"",
                            argv[optind]);
+    if (a->stages && (a->growth || optind == argc))
+        return turner_fail(TURNER_USAGE, "--stages takes scene files, as in: turner bench --stages "
+                                         "scenes/prism.json");
     if (a->growth && !a->names[0])
         split(a, 0, "camera,random");
     if (a->growth && !a->names[1])
@@ -163,14 +171,13 @@ static enum turner_result parse(struct arguments *a, int argc, char **argv)
     return TURNER_OK;
 }
 
-static enum turner_result measure(struct turner_bench *bench, const char *device)
+static enum turner_result measure_rays(struct turner_bench *bench)
 {
     struct turner_gpu gpu;
     const char *why;
-    TURNER_TRY(turner_gpu_create(&gpu, device, false));
+    TURNER_TRY(turner_gpu_create(&gpu, bench->wanted, false));
     snprintf(bench->device, sizeof bench->device, "%s", gpu.info.name);
     snprintf(bench->driver, sizeof bench->driver, "%s", gpu.info.driver);
-    turner_machine_cpu(bench->cpu, sizeof bench->cpu);
     struct turner_embree *embree = turner_embree_open(bench->threads, &why);
     snprintf(bench->embree, sizeof bench->embree, "%s", embree ? turner_embree_name(embree) : why);
     enum turner_result result = TURNER_OK;
@@ -204,21 +211,27 @@ static enum turner_result run(struct arguments *a, char *const *names, size_t co
     struct turner_bench *bench = &a->bench;
     if (bench->output)
         TURNER_TRY(turner_chart_make_folder(bench->output));
-    bench->scenes = turner_calloc(count, sizeof *bench->scenes);
+    turner_machine_cpu(bench->cpu, sizeof bench->cpu);
     bench->scene_count = count;
+    if (a->stages)
+        bench->stages = turner_calloc(count, sizeof *bench->stages);
+    else
+        bench->scenes = turner_calloc(count, sizeof *bench->scenes);
     for (size_t i = 0; i < count; i++)
-        bench->scenes[i].name = names[i];
+        *(a->stages ? &bench->stages[i].name : &bench->scenes[i].name) = names[i];
     turner_progress_begin(&bench->bar, a->quiet);
-    enum turner_result result = measure(bench, a->device);
+    enum turner_result result =
+        a->stages ? turner_bench_measure_stages(bench) : measure_rays(bench);
     turner_progress_end(&bench->bar);
     if (result == TURNER_OK) {
         turner_bench_print(bench);
         if (bench->output)
             result = turner_bench_write(bench);
     }
-    if (result == TURNER_OK)
+    if (result == TURNER_OK && !a->stages)
         result = judge(bench);
     free(bench->scenes);
+    free(bench->stages);
     return result;
 }
 

@@ -1,4 +1,4 @@
-"""command_bench.py files | wrong | growth | interrupted | refused: what `turner bench` does.
+"""command_bench.py files | wrong | growth | stages | interrupted | refused: what `turner bench` does.
 
 Environment: TURNER, the command; TURNER_SHADERS, its shaders. Exit status 77 without a Vulkan
 device. No time is judged.
@@ -142,6 +142,23 @@ def growth():
     assert min(times) / 2 < line < 2 * max(times), (line, times)
 
 
+def stages():
+    """Pictures from start to end, twice: with empty caches and with full ones."""
+    pathlib.Path("pair.json").write_text(SCENE % PLANE)
+    os.environ["TMPDIR"] = os.getcwd()
+    out = bench("--stages", "--rounds", "1", "-o", "out", "pair.json").stdout
+    table = {(row["caches"], row["stage"]): float(row["seconds"])
+             for row in rows("out/stages.csv")}
+    for caches in ("empty", "full"):
+        parts = [table[caches, stage] for stage in ("parse", "build", "compile", "upload", "trace",
+                                                    "read_back", "write")]
+        assert all(part >= 0 for part in parts) and table[caches, "trace"] > 0, parts
+        assert table[caches, "all"] > table[caches, "trace"], table
+    assert "\nall " in out and "\nrest " in out
+    assert bench("--stages", "no.json", status=3).stdout == ""
+    assert not list(pathlib.Path(".").glob("turner-bench-*")), "a folder was left"
+
+
 def interrupted():
     """Whatever ends it, nothing is written half."""
     for number in (signal.SIGINT, signal.SIGTERM):
@@ -157,7 +174,7 @@ def refused():
     """Wrong command lines and files."""
     for arguments, word in ((["--rays", "cameras"], "camera"), (["--tracers", "optix"], "embree"),
                             (["--rounds", "0"], "--rounds"), (["--growth=99"], "--growth"),
-                            (["--growth", "a.json"], "--growth"), (["--what"], "--help"),
+                            (["--growth", "a.json"], "--growth"), (["--stages"], "scene files"), (["--what"], "--help"),
                             (["sphereflake:9"], "sphereflake:9"),
                             (["--size", "60000x60000"], "64 million")):
         assert word in bench(*arguments, status=2).stderr, word
@@ -174,8 +191,8 @@ def main():
         sys.exit(77)
     with tempfile.TemporaryDirectory(prefix="turner-bench-") as folder:
         os.chdir(folder)
-        {"files": files, "wrong": wrong, "growth": growth, "interrupted": interrupted,
-         "refused": refused}[sys.argv[1]]()
+        {"files": files, "wrong": wrong, "growth": growth, "stages": stages,
+         "interrupted": interrupted, "refused": refused}[sys.argv[1]]()
         os.chdir("/")
 
 

@@ -8,7 +8,7 @@ target_compile_definitions(test_bench PRIVATE
 set_target_properties(test_bench PROPERTIES LINKER_LANGUAGE CXX)
 
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
-foreach(what IN ITEMS files wrong growth interrupted refused)
+foreach(what IN ITEMS files wrong growth stages interrupted refused)
     add_test(NAME bench_${what} COMMAND Python3::Interpreter
         ${CMAKE_CURRENT_LIST_DIR}/command_bench.py ${what})
     set_tests_properties(bench_${what} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 LABELS device
