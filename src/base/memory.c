@@ -3,10 +3,27 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include "turner.h"
+
+#define LARGE ((size_t)4 << 20)
+
+/* Large pages for large arrays: fewer faults when they are filled, and when they are read at
+ * random. */
+static void use_large_pages(void *memory, size_t bytes)
+{
+#ifdef MADV_HUGEPAGE
+    uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE), begin = (uintptr_t)memory;
+    uintptr_t aligned = (begin + page - 1) / page * page;
+    if (memory && bytes >= LARGE) /* only a wish: what comes of it does not matter */
+        madvise((void *)aligned, bytes - (aligned - begin), MADV_HUGEPAGE);
+#else
+    (void)memory, (void)bytes;
+#endif
+}
 
 static void *checked(void *memory, size_t count, size_t size)
 {
@@ -19,7 +36,9 @@ static void *checked(void *memory, size_t count, size_t size)
 
 void *turner_calloc(size_t count, size_t size)
 {
-    return checked(calloc(count, size), count, size);
+    void *memory = checked(calloc(count, size), count, size);
+    use_large_pages(memory, count * size);
+    return memory;
 }
 
 void *turner_realloc(void *memory, size_t count, size_t size)

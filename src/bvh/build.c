@@ -1,197 +1,248 @@
-#include <assert.h>
-#include <math.h>
+/* The tree's top, by all threads level after level, and its subtrees, each by one. What comes out
+ * does not depend on the number of threads: a range's items keep their order when they are divided,
+ * bins are summed in that order, and nodes are numbered afterwards. */
+#include <stdlib.h>
 
-#include "bvh/build.h"
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "bvh/subtree.h"
 
-#define BINS 16
-#define VISIT_COST 1.0 /* of a node (two boxes), in units of one primitive's test */
+#define BLOCK 8192 /* items of a range that one thread takes at once */
 
-struct builder {
-    struct turner_gpu_node *nodes;
-    size_t node_count;
-    struct turner_bvh_item *items;
-    uint32_t leaf, first;
+struct block {
+    uint32_t part;         /* index of the range */
+    uint32_t begin, count; /* within it */
+    uint32_t left;         /* items that go to the left of the range's split */
+    uint32_t left_before;  /* of blocks before it */
+    struct turner_bins bins;
+    struct turner_box4 centers[2];
 };
 
-/* Bins are numbered by (centre − lo)·scale. */
-struct split {
-    int axis; /* −1: no plane between bins has items on both sides */
-    int bin;  /* the first one on the right */
-    float lo, scale;
-    double cost; /* Σ area · items of both sides */
+/* A range of the top. */
+struct part {
+    struct turner_range range;
+    uint32_t level;
+    uint32_t children; /* index of the first of two, or 0: it is a subtree's */
+    bool halve;
+    struct turner_grid grid;
+    struct turner_split split;
+    size_t place, moved; /* of its node; where it has been counted on, where it ends */
+    struct turner_subtree tree;
 };
 
-struct bin {
-    struct turner_bvh_bounds bounds;
-    uint32_t count;
+struct top {
+    struct turner_builder builder;
+    struct part *parts; /* level after level */
+    size_t part_count, part_capacity;
+    struct block *blocks;
+    size_t block_count, block_capacity;
+    uint32_t *subtrees; /* parts in depth-first order */
+    uint32_t subtree_count;
 };
 
-static int bin_of(const struct turner_bvh_item *item, int axis, float lo, float scale)
+static const struct turner_bvh_item *block_items(const struct top *top, const struct block *block)
 {
-    float position = (turner_bvh_center(item, axis) - lo) * scale; /* ≥ 0, or NaN where ∞·0 */
-    return position < (float)BINS ? (int)position : BINS - 1;
+    const struct part *part = &top->parts[block->part];
+    return top->builder.buffer[part->level & 1] + part->range.begin + block->begin;
 }
 
-static void grow(struct turner_bvh_bounds *bounds, const float lo[3], const float hi[3])
+static void bin_block(void *user, uint32_t i)
 {
-    for (int axis = 0; axis < 3; axis++) {
-        bounds->lo[axis] = lo[axis] < bounds->lo[axis] ? lo[axis] : bounds->lo[axis];
-        bounds->hi[axis] = hi[axis] > bounds->hi[axis] ? hi[axis] : bounds->hi[axis];
-    }
+    struct top *top = user;
+    struct block *block = &top->blocks[i];
+    const struct turner_grid *grid = &top->parts[block->part].grid;
+    turner_bins_clear(&block->bins, grid);
+    turner_bins_add(&block->bins, block_items(top, block), block->count, grid);
 }
 
-/* Half the surface. In double: the square of a float's range overflows a float. */
-static double area(const struct turner_bvh_bounds *bounds)
+static void move_block(void *user, uint32_t i)
 {
-    double x = (double)bounds->hi[0] - (double)bounds->lo[0];
-    double y = (double)bounds->hi[1] - (double)bounds->lo[1];
-    double z = (double)bounds->hi[2] - (double)bounds->lo[2];
-    return x * y + y * z + z * x;
+    struct top *top = user;
+    struct block *block = &top->blocks[i];
+    const struct part *part = &top->parts[block->part];
+    if (part->halve)
+        return;
+    struct turner_bvh_item *to = top->builder.buffer[~part->level & 1] + part->range.begin;
+    turner_split_move(to + block->left_before,
+                      to + part->split.left + (block->begin - block->left_before), block->centers,
+                      block_items(top, block), block->count, &part->split, &part->grid);
 }
 
-/* Lowers `best` where a plane between two bins of this axis is cheaper. */
-static void try_axis(struct split *best, const struct bin bins[BINS], int axis, float lo,
-                     float scale)
+/* Cuts the parts first…end−1 that are too large for a subtree into blocks. */
+static void make_blocks(struct top *top, size_t first, size_t end)
 {
-    double right_cost[BINS], cost = -1; /* of bins i … BINS − 1 together; −1 without items */
-    uint32_t right_count = 0, left_count = 0;
-    struct turner_bvh_bounds right = TURNER_BVH_EMPTY, left = TURNER_BVH_EMPTY;
-    for (int i = BINS - 1; i > 0; i--) {
-        if (bins[i].count) {
-            grow(&right, bins[i].bounds.lo, bins[i].bounds.hi);
-            right_count += bins[i].count;
-            cost = area(&right) * right_count;
-        }
-        right_cost[i] = cost;
-    }
-    for (int i = 1; i < BINS; i++) {
-        if (!bins[i - 1].count) /* the same split as the one before, or none */
+    top->block_count = 0;
+    for (size_t i = first; i < end; i++) {
+        struct part *part = &top->parts[i];
+        uint32_t count = part->range.count;
+        if (count <= TURNER_BVH_SUBTREE)
             continue;
-        grow(&left, bins[i - 1].bounds.lo, bins[i - 1].bounds.hi);
-        left_count += bins[i - 1].count;
-        if (right_cost[i] < 0)
-            break;
-        cost = area(&left) * left_count + right_cost[i];
-        if (best->axis < 0 || cost < best->cost)
-            *best = (struct split){.axis = axis, .bin = i, .lo = lo, .scale = scale, .cost = cost};
-    }
-}
-
-static struct split find_split(const struct turner_bvh_item *items, uint32_t count,
-                               const struct turner_bvh_bounds *centers)
-{
-    struct bin bins[3][BINS];
-    float scale[3];
-    for (int axis = 0; axis < 3; axis++) {
-        float extent = centers->hi[axis] - centers->lo[axis];
-        scale[axis] = extent > 0 ? (float)BINS / extent : 0;
-        /* too thin or too wide to be divided into bins: everything falls into the first */
-        if (!(isfinite(extent) && isfinite(scale[axis])))
-            scale[axis] = 0;
-        for (int i = 0; i < BINS; i++)
-            bins[axis][i] = (struct bin){.bounds = TURNER_BVH_EMPTY};
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        for (int axis = 0; axis < 3; axis++) {
-            struct bin *bin = &bins[axis][bin_of(&items[i], axis, centers->lo[axis], scale[axis])];
-            grow(&bin->bounds, items[i].lo, items[i].hi);
-            bin->count++;
+        part->grid = turner_grid_of(&part->range);
+        for (uint32_t k = 0; k < turner_pieces(count, BLOCK); k++) {
+            struct block *block = TURNER_PUSH(top->blocks, top->block_count, top->block_capacity);
+            block->part = (uint32_t)i;
+            block->begin = k * BLOCK;
+            block->count = turner_piece_end(count, BLOCK, k) - block->begin;
+            block->centers[0] = block->centers[1] = TURNER_BOX4_EMPTY;
         }
     }
-    struct split best = {.axis = -1};
-    for (int axis = 0; axis < 3; axis++) {
-        if (scale[axis] > 0)
-            try_axis(&best, bins[axis], axis, centers->lo[axis], scale[axis]);
-    }
-    return best;
 }
 
-static uint32_t partition(struct turner_bvh_item *items, uint32_t count, const struct split *split)
+/* How to divide the part of these blocks, and what of it falls to each of them. */
+static void choose_split(struct part *part, struct block *blocks, size_t count)
 {
-    uint32_t left = 0, right = count;
-    while (left < right) {
-        if (bin_of(&items[left], split->axis, split->lo, split->scale) < split->bin) {
-            left++;
-        } else {
-            struct turner_bvh_item item = items[left];
-            items[left] = items[--right];
-            items[right] = item;
-        }
+    struct turner_bins bins = blocks[0].bins;
+    for (size_t i = 1; i < count; i++)
+        turner_bins_join(&bins, &blocks[i].bins, &part->grid);
+    part->split = turner_bins_split(&bins, &part->grid);
+    part->halve = part->split.axis < 0 || !turner_subtree_may_split(part->range.count, part->level);
+    uint32_t before = 0;
+    for (size_t i = 0; i < count && !part->halve; i++) {
+        uint32_t left = 0;
+        for (int bin = 0; bin < part->split.bin; bin++)
+            left += blocks[i].bins.count[part->split.axis][bin];
+        blocks[i].left_before = before;
+        before += left;
     }
-    return left;
 }
 
-static uint32_t levels_when_halved(uint32_t count)
+static void add_children(struct top *top, uint32_t index, const struct block *blocks, size_t count)
 {
-    uint32_t levels = 0;
-    while (levels < 32 && (UINT64_C(1) << levels) < count)
-        levels++;
-    return levels;
-}
-
-static void set_child(struct turner_gpu_node *node, int side,
-                      const struct turner_bvh_bounds *bounds, uint32_t child, uint32_t count)
-{
-    float *lo = side ? node->lo1 : node->lo0, *hi = side ? node->hi1 : node->hi0;
-    for (int axis = 0; axis < 3; axis++) {
-        lo[axis] = bounds->lo[axis];
-        hi[axis] = bounds->hi[axis];
-    }
-    node->child[side] = child;
-    node->count[side] = count;
-}
-
-/* Makes a tree of items begin…end−1 and returns its levels of nodes. With `level` nodes above it,
- * it becomes a child of nodes[parent], or a leaf of it; at level 0 there is no parent, and a node
- * is always made. The recursion is as deep as the tree. */
-static uint32_t build_range(struct builder *b, uint32_t begin, uint32_t end, uint32_t level,
-                            size_t parent, int side)
-{
-    bool is_root = level == 0;
-    uint32_t count = end - begin;
-    struct turner_bvh_item *items = b->items + begin;
-    struct turner_bvh_bounds bounds, centers;
-    turner_bvh_measure(&bounds, &centers, items, count);
-    struct split split = {.axis = -1};
-    if (count > 1)
-        split = find_split(items, count, &centers);
-    double whole = area(&bounds);
-    bool cheap = split.axis < 0 || whole * count <= VISIT_COST * whole + split.cost;
-    bool is_leaf = count <= b->leaf && (count <= 1 || cheap);
-    if (is_leaf && !is_root) {
-        set_child(&b->nodes[parent], side, &bounds, b->first + begin, count);
-        return 0;
-    }
-
-    size_t node = b->node_count++;
-    if (!is_root)
-        set_child(&b->nodes[parent], side, &bounds, (uint32_t)node, 0);
-    if (is_leaf) {
-        set_child(&b->nodes[node], 0, &bounds, count ? b->first + begin : 0, count);
-        set_child(&b->nodes[node], 1, &TURNER_BVH_EMPTY, 0, 0);
-        return 1;
-    }
-    uint32_t left;
-    /* halving always ends within the levels left: what follows an SAH split must still do */
-    if (split.axis >= 0 && level + 1 + levels_when_halved(count) <= TURNER_BVH_MAX_LEVELS) {
-        left = partition(items, count, &split);
+    struct turner_range children[2];
+    const struct part *part = &top->parts[index];
+    if (part->halve) {
+        turner_subtree_halve(&top->builder, children, &part->range, part->level);
     } else {
-        left = count - count / 2;
-        turner_bvh_select(items, count, left, turner_bvh_widest(&centers));
+        for (uint32_t side = 0; side < 2; side++) {
+            struct turner_range *child = &children[side];
+            child->begin = part->range.begin + (side ? part->split.left : 0);
+            child->count = side ? part->range.count - part->split.left : part->split.left;
+            child->box = part->split.box[side];
+            child->centers = TURNER_BOX4_EMPTY;
+            for (size_t i = 0; i < count; i++)
+                turner_box4_grow(&child->centers, blocks[i].centers[side].lo,
+                                 blocks[i].centers[side].hi);
+        }
     }
-    assert(left > 0 && left < count);
-    uint32_t below = build_range(b, begin, begin + left, level + 1, node, 0);
-    uint32_t below_right = build_range(b, begin + left, end, level + 1, node, 1);
-    return 1 + (below > below_right ? below : below_right);
+    uint32_t level = part->level + 1;
+    top->parts[index].children = (uint32_t)top->part_count;
+    for (int side = 0; side < 2; side++)
+        *TURNER_PUSH(top->parts, top->part_count, top->part_capacity) =
+            (struct part){.range = children[side], .level = level};
+}
+
+/* The end of the blocks that are of the same part as `begin`. */
+static size_t blocks_end(const struct top *top, size_t begin)
+{
+    size_t end = begin;
+    while (end < top->block_count && top->blocks[end].part == top->blocks[begin].part)
+        end++;
+    return end;
+}
+
+static void divide_top(struct top *top)
+{
+    for (size_t first = 0, end = 1; first < end; first = end, end = top->part_count) {
+        make_blocks(top, first, end);
+        turner_parallel_for((uint32_t)top->block_count, bin_block, top);
+        for (size_t i = 0, next; i < top->block_count; i = next) {
+            next = blocks_end(top, i);
+            choose_split(&top->parts[top->blocks[i].part], &top->blocks[i], next - i);
+        }
+        turner_parallel_for((uint32_t)top->block_count, move_block, top);
+        for (size_t i = 0, next; i < top->block_count; i = next) {
+            next = blocks_end(top, i);
+            add_children(top, top->blocks[i].part, &top->blocks[i], next - i);
+        }
+    }
+}
+
+/* Gives every node of the top its place, and every subtree room for the most it may have. */
+static size_t number_parts(struct top *top, uint32_t index, size_t place)
+{
+    struct part *part = &top->parts[index];
+    part->place = place;
+    if (!part->children) {
+        top->subtrees[top->subtree_count++] = index;
+        return place + (part->range.count > 1 ? part->range.count - 1 : 0);
+    }
+    place = number_parts(top, part->children, place + 1);
+    return number_parts(top, part->children + 1, place);
+}
+
+static void build_subtree(void *user, uint32_t i)
+{
+    struct top *top = user;
+    struct part *part = &top->parts[top->subtrees[i]];
+    part->tree = turner_subtree_build(&top->builder, &part->range, part->level, part->place);
+}
+
+/* Closes the gaps that subtrees left. Returns where the part's last node ends, and sets the levels
+ * of nodes from it down. */
+static size_t move_parts(struct top *top, uint32_t index, size_t place)
+{
+    struct part *part = &top->parts[index];
+    part->moved = place;
+    if (!part->children)
+        return place + part->tree.nodes;
+    place = move_parts(top, part->children, place + 1);
+    place = move_parts(top, part->children + 1, place);
+    const struct part *left = &top->parts[part->children], *right = left + 1;
+    uint32_t below =
+        left->tree.levels > right->tree.levels ? left->tree.levels : right->tree.levels;
+    part->tree.levels = 1 + below;
+    return place;
+}
+
+static void renumber_subtree(void *user, uint32_t i)
+{
+    struct top *top = user;
+    const struct part *part = &top->parts[top->subtrees[i]];
+    uint32_t distance = (uint32_t)(part->place - part->moved);
+    struct turner_gpu_node *nodes = &top->builder.nodes[part->place];
+    for (uint32_t node = 0; distance > 0 && node < part->tree.nodes; node++) {
+        for (int side = 0; side < 2; side++)
+            nodes[node].child[side] -= nodes[node].count[side] ? 0 : distance;
+    }
+}
+
+static void write_top(struct top *top)
+{
+    struct turner_gpu_node *nodes = top->builder.nodes;
+    for (uint32_t i = 0; i < top->subtree_count; i++) {
+        const struct part *part = &top->parts[top->subtrees[i]];
+        memmove(&nodes[part->moved], &nodes[part->place], part->tree.nodes * sizeof *nodes);
+    }
+    for (size_t i = 0; i < top->part_count; i++) {
+        const struct part *part = &top->parts[i];
+        for (int side = 0; part->children && side < 2; side++) {
+            const struct part *child = &top->parts[part->children + (uint32_t)side];
+            bool leaf = child->tree.is_leaf;
+            turner_node_set(&nodes[part->moved], side, &child->range.box,
+                            leaf ? top->builder.first + child->range.begin : (uint32_t)child->moved,
+                            leaf ? child->range.count : 0);
+        }
+    }
 }
 
 uint32_t turner_bvh_build(struct turner_gpu_node *nodes, size_t *node_count,
-                          struct turner_bvh_item *items, uint32_t count, uint32_t leaf,
-                          uint32_t first)
+                          struct turner_bvh_item *items, struct turner_bvh_item *spare,
+                          uint32_t count, uint32_t leaf, uint32_t first)
 {
-    struct builder b = {
-        .nodes = nodes, .node_count = *node_count, .items = items, .leaf = leaf, .first = first};
-    uint32_t levels = build_range(&b, 0, count, 0, 0, 0);
-    *node_count = b.node_count;
+    struct top top = {.builder = {nodes, {items, spare}, leaf, first}};
+    struct part root = {.range = {.count = count}};
+    turner_range_measure(&root.range, items);
+    *TURNER_PUSH(top.parts, top.part_count, top.part_capacity) = root;
+    divide_top(&top);
+    top.subtrees = turner_calloc(top.part_count, sizeof *top.subtrees);
+    number_parts(&top, 0, *node_count);
+    turner_parallel_for(top.subtree_count, build_subtree, &top);
+    *node_count = move_parts(&top, 0, *node_count);
+    turner_parallel_for(top.subtree_count, renumber_subtree, &top);
+    write_top(&top);
+    uint32_t levels = top.parts[0].tree.levels;
+    free(top.subtrees);
+    free(top.blocks);
+    free(top.parts);
     return levels;
 }

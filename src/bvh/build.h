@@ -43,11 +43,13 @@ float turner_round_up(double x);
 /* Appends a binned-SAH tree over the items to `nodes` and moves the items into leaf order; a leaf's
  * child is `first` + the place of its first item. The root is the first node appended; at least 1
  * and at most max(1, count − 1) nodes are. Returns the levels of nodes, at most
- * TURNER_BVH_MAX_LEVELS. Method: Wald, "On fast construction of SAH-based bounding volume
- * hierarchies", 2007. */
+ * TURNER_BVH_MAX_LEVELS. `spare` has room for as many items, with any contents. All cores work on
+ * it, and the tree is the same for any number of them. Method: Wald, "On fast construction of
+ * SAH-based bounding volume hierarchies", 2007; bins for large ranges, every plane for small
+ * ones. */
 uint32_t turner_bvh_build(struct turner_gpu_node *nodes, size_t *node_count,
-                          struct turner_bvh_item *items, uint32_t count, uint32_t leaf,
-                          uint32_t first);
+                          struct turner_bvh_item *items, struct turner_bvh_item *spare,
+                          uint32_t count, uint32_t leaf, uint32_t first);
 
 /* Moves the items so that no centre before place `k` lies above one from `k` on along the axis.
  * Expected linear time whatever the input (Hoare's selection with pivots drawn by a fixed

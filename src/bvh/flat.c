@@ -1,6 +1,6 @@
 #include "bvh/flat.h"
 
-#include <math.h>
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -56,6 +56,7 @@ static enum turner_result check_sizes(const struct sizes *sizes, enum turner_ord
     const struct turner_flat *flat = NULL; /* for sizeof only */
     uint64_t items =
         sizes->largest_group > sizes->instances ? sizes->largest_group : sizes->instances;
+    uint64_t spare = sizes->instances; /* of items; groups find room among their primitives */
     uint64_t bytes = sizes->primitives * sizeof *flat->primitives +
                      sizes->instances * (sizeof *flat->instances + sizeof *flat->instance_groups +
                                          sizeof(struct turner_bvh_bounds)) +
@@ -63,7 +64,7 @@ static enum turner_result check_sizes(const struct sizes *sizes, enum turner_ord
                      sizes->vertices * (sizeof *flat->normals + sizeof *flat->uvs) +
                      items * sizeof(struct turner_bvh_item);
     if (order == TURNER_ORDER_SAH)
-        bytes += sizes->nodes * sizeof *flat->nodes;
+        bytes += sizes->nodes * sizeof *flat->nodes + spare * sizeof(struct turner_bvh_item);
     uint64_t available = turner_memory_available();
     if (bytes > available)
         return turner_fail(TURNER_DEVICE,
@@ -81,65 +82,6 @@ static enum turner_result check_sizes(const struct sizes *sizes, enum turner_ord
     return TURNER_OK;
 }
 
-/* Fills items with the bounds of the group's primitives, in their order but, for `triangles_first`,
- * with the triangles before the rest. */
-static enum turner_result measure_group(struct turner_bvh_item *items,
-                                        struct turner_flat_group *flat_group,
-                                        const struct turner_gpu_primitive *primitives,
-                                        const struct turner_group *group, bool triangles_first)
-{
-    static const char *const kinds[] = {"sphere", "cone", "triangle"};
-    uint32_t count = (uint32_t)turner_group_primitive_count(group);
-    uint32_t boxes = (uint32_t)(group->sphere_count + group->cone_count);
-    struct turner_bvh_bounds bounds = TURNER_BVH_EMPTY;
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t place = !triangles_first ? i : i < boxes ? i + (count - boxes) : i - boxes;
-        struct turner_bvh_item *item = &items[place];
-        item->index = i;
-        item->pad = 0;
-        turner_primitive_bounds(item->lo, item->hi, &primitives[i]);
-        for (int axis = 0; axis < 3; axis++) {
-            /* written so that NaN fails */
-            if (!(isfinite(item->lo[axis]) && isfinite(item->hi[axis]))) {
-                uint32_t id = primitives[i].id;
-                return turner_fail(
-                    TURNER_BAD_INPUT,
-                    "%s %u of %s%s%s does not fit single precision (its numbers must stay below "
-                    "3e38); make the scene smaller",
-                    kinds[id >> TURNER_KIND_SHIFT], id & ((1u << TURNER_KIND_SHIFT) - 1),
-                    group->name ? "group \"" : "the world", group->name ? group->name : "",
-                    group->name ? "\"" : "");
-            }
-            bounds.lo[axis] = fminf(bounds.lo[axis], item->lo[axis]);
-            bounds.hi[axis] = fmaxf(bounds.hi[axis], item->hi[axis]);
-        }
-    }
-    memcpy(flat_group->lo, bounds.lo, sizeof bounds.lo);
-    memcpy(flat_group->hi, bounds.hi, sizeof bounds.hi);
-    return TURNER_OK;
-}
-
-/* Puts primitives[items[i].index] in place i, for all i, along the cycles of the permutation; the
- * items' indices are used up. */
-static void permute(struct turner_gpu_primitive *primitives, struct turner_bvh_item *items,
-                    uint32_t count)
-{
-    for (uint32_t start = 0; start < count; start++) {
-        if (items[start].index == start)
-            continue;
-        struct turner_gpu_primitive first = primitives[start];
-        uint32_t place = start;
-        while (items[place].index != start) {
-            uint32_t from = items[place].index;
-            primitives[place] = primitives[from];
-            items[place].index = place;
-            place = from;
-        }
-        primitives[place] = first;
-        items[place].index = place;
-    }
-}
-
 static enum turner_result flatten_groups(struct turner_flat *flat, const struct turner_scene *scene,
                                          enum turner_order order, const bool *patterned,
                                          struct turner_bvh_item *items, uint32_t *group_levels,
@@ -151,12 +93,19 @@ static enum turner_result flatten_groups(struct turner_flat *flat, const struct 
         size_t first = flat->primitive_count;
         uint32_t count = (uint32_t)turner_group_primitive_count(group);
         uint32_t boxes = (uint32_t)(group->sphere_count + group->cone_count);
-        turner_flat_group(flat, scene, g, first, patterned[g]);
-        TURNER_TRY(measure_group(items, out, flat->primitives + first, group,
-                                 order == TURNER_ORDER_MEDIAN));
+        struct turner_flat_source source;
+        turner_flat_source_create(&source, flat, scene, g, patterned[g]);
+        enum turner_result result =
+            turner_flat_measure(items, out, &source, order == TURNER_ORDER_MEDIAN);
+        if (result != TURNER_OK) {
+            free(source.meshes);
+            return result;
+        }
         if (order == TURNER_ORDER_SAH) {
             out->root = (uint32_t)flat->node_count;
-            group_levels[g] = turner_bvh_build(flat->nodes, &flat->node_count, items, count,
+            static_assert(sizeof *flat->primitives >= sizeof *items, "room for items");
+            struct turner_bvh_item *spare = (void *)(flat->primitives + first);
+            group_levels[g] = turner_bvh_build(flat->nodes, &flat->node_count, items, spare, count,
                                                TURNER_BVH_LEAF, (uint32_t)first);
             group_nodes[g] = (uint32_t)flat->node_count - out->root;
         } else {
@@ -167,7 +116,8 @@ static enum turner_result flatten_groups(struct turner_flat *flat, const struct 
             turner_bvh_median_order(items, out->triangle_count);
             turner_bvh_median_order(items + out->triangle_count, boxes);
         }
-        permute(flat->primitives + first, items, count);
+        turner_flat_place(flat->primitives + first, &source, items, count);
+        free(source.meshes);
         flat->primitive_count += count;
     }
     return TURNER_OK;
@@ -216,7 +166,9 @@ static void build_top(struct turner_flat *flat, struct turner_bvh_item *items, u
 {
     size_t first = flat->node_count;
     flat->root = (uint32_t)first;
-    uint32_t levels = turner_bvh_build(flat->nodes, &flat->node_count, items, count, 1, 0);
+    struct turner_bvh_item *spare = turner_calloc(count, sizeof *spare);
+    uint32_t levels = turner_bvh_build(flat->nodes, &flat->node_count, items, spare, count, 1, 0);
+    free(spare);
     for (size_t i = first; i < flat->node_count; i++) {
         for (int side = 0; side < 2; side++) {
             if (flat->nodes[i].count[side])

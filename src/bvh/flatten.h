@@ -12,11 +12,39 @@ uint32_t turner_flat_material(const struct turner_scene *scene, uint32_t materia
 bool turner_flat_needs_uvs(const struct turner_scene *scene, const struct turner_mesh *mesh,
                            bool patterned);
 
-/* Writes the group's primitives to primitives[first…] in group order (spheres, cones, triangles in
- * mesh order), and appends what its meshes have of corners, normals and uvs to arrays that are
- * large enough. */
-void turner_flat_group(struct turner_flat *flat, const struct turner_scene *scene, size_t group,
-                       size_t first, bool patterned);
+/* Where the primitives of a group come from. */
+struct turner_flat_mesh {
+    uint32_t first;      /* its first triangle among those of the group */
+    uint32_t material;   /* as primitives hold it */
+    uint32_t attributes; /* of its first triangle */
+};
+
+struct turner_flat_source {
+    const struct turner_group *group;
+    const struct turner_scene *scene;
+    struct turner_flat_mesh *meshes; /* mesh_count */
+};
+
+/* Appends what the group's meshes have of corners, normals and uvs to arrays of `flat` that are
+ * large enough. Free the source with free(source->meshes). */
+void turner_flat_source_create(struct turner_flat_source *source, struct turner_flat *flat,
+                               const struct turner_scene *scene, size_t group, bool patterned);
+
+/* Primitive `index` of the group: spheres, cones, triangles in mesh order. */
+struct turner_gpu_primitive turner_flat_primitive(const struct turner_flat_source *source,
+                                                  uint32_t index);
+
+/* Fills items with the bounds of the group's primitives, in their order but, for `triangles_first`,
+ * with the triangles before the rest, and sets the bounds of flat_group. TURNER_BAD_INPUT. */
+enum turner_result turner_flat_measure(struct turner_bvh_item *items,
+                                       struct turner_flat_group *flat_group,
+                                       const struct turner_flat_source *source,
+                                       bool triangles_first);
+
+/* Writes the primitive of every item, in the items' order. */
+void turner_flat_place(struct turner_gpu_primitive *primitives,
+                       const struct turner_flat_source *source, const struct turner_bvh_item *items,
+                       uint32_t count);
 
 /* Fills the transforms and spawn_scale of an instance, and the bounds in the world of what has the
  * bounds `box` in the group, rounded outwards by what transforming in floats may err. False when
