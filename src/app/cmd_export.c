@@ -13,6 +13,7 @@ static const char help[] =
     "\n"
     "      --pov             as a POV-Ray 3.7 scene, the same to the last digit; what POV-Ray\n"
     "                        cannot say is an error that names it (docs/scenes.md has the list)\n"
+    "      --anyway          it is a warning, and the picture another: to compare times\n"
     "  -o, --output FILE     appears whole or not at all\n"
     "      --run             draw it with POV-Ray at once: beside FILE.pov appear FILE.exr, linear\n"
     "                        and one sample a pixel, and FILE.log, what POV-Ray said\n"
@@ -32,11 +33,11 @@ static const char help[] =
 
 struct arguments {
     const char *output;
-    bool pov, run, quiet;
+    bool pov, run, anyway, quiet;
     struct turner_scene_options options;
 };
 
-enum { POV = TURNER_OPTION_OWN, RUN };
+enum { POV = TURNER_OPTION_OWN, RUN, ANYWAY };
 
 static enum turner_result take(struct arguments *a, int option, char **argv)
 {
@@ -45,6 +46,7 @@ static enum turner_result take(struct arguments *a, int option, char **argv)
     case 'q': a->quiet = true; return TURNER_OK;
     case POV: a->pov = true; return TURNER_OK;
     case RUN: a->run = true; return TURNER_OK;
+    case ANYWAY: a->anyway = true; return TURNER_OK;
     }
     return turner_scene_option_take(&a->options, option, argv);
 }
@@ -72,6 +74,7 @@ enum turner_result turner_cmd_export(int argc, char **argv)
     static const struct option options[] = {
         {"pov", no_argument, NULL, POV},
         {"run", no_argument, NULL, RUN},
+        {"anyway", no_argument, NULL, ANYWAY},
         {"output", required_argument, NULL, 'o'},
         {"size", required_argument, NULL, TURNER_OPTION_SIZE},
         {"depth", required_argument, NULL, TURNER_OPTION_DEPTH},
@@ -96,12 +99,17 @@ enum turner_result turner_cmd_export(int argc, char **argv)
         return turner_fail(TURNER_USAGE, "export to what? --pov is all there is");
     if (!a.output)
         return turner_fail(TURNER_USAGE, "export needs -o FILE.pov for what it writes");
+    if (a.anyway && a.run)
+        return turner_fail(TURNER_USAGE, "export draws only what POV-Ray can say: leave out --run "
+                                         "or --anyway");
     turner_set_quiet(a.quiet);
     struct turner_scene *scene = NULL;
     enum turner_result result;
     TURNER_TRY_DONE(turner_scene_load(&scene, argv[optind]));
     TURNER_TRY_DONE(turner_scene_options_apply(&a.options, scene));
-    TURNER_TRY_DONE(a.run ? draw(scene, a.output) : turner_pov_write(scene, a.output));
+    TURNER_TRY_DONE(a.run      ? draw(scene, a.output)
+                    : a.anyway ? turner_pov_write_anyway(scene, a.output)
+                               : turner_pov_write(scene, a.output));
 done:
     turner_scene_destroy(scene);
     return result;

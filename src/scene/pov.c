@@ -143,30 +143,50 @@ static enum turner_result check_settings(const struct turner_scene *scene)
 
 static enum turner_result check(struct turner_pov_holes *holes, const struct turner_scene *scene)
 {
-    TURNER_TRY(check_settings(scene));
     TURNER_TRY(turner_pov_check_materials(scene));
     TURNER_TRY(turner_pov_check_patterns(scene));
     return turner_pov_check_solids(holes, scene);
 }
 
-enum turner_result turner_pov_write(const struct turner_scene *scene, const char *path)
+static enum turner_result write_with(struct turner_pov_holes *holes,
+                                     const struct turner_scene *scene, const char *path)
 {
-    struct turner_pov_holes holes = {0};
     char *text = NULL;
     size_t size = 0;
-    enum turner_result result;
-    TURNER_TRY_DONE(check(&holes, scene));
     FILE *out = open_memstream(&text, &size);
     bool whole = out != NULL;
     if (out) {
-        write_scene(out, scene, &holes);
+        write_scene(out, scene, holes);
         whole = !ferror(out);
         whole = fclose(out) == 0 && whole;
     }
-    result = whole ? turner_atomic_write(path, text, size)
-                   : turner_fail(TURNER_DEVICE, "not enough memory for the POV-Ray scene");
-done:
+    enum turner_result result =
+        whole ? turner_atomic_write(path, text, size)
+              : turner_fail(TURNER_DEVICE, "not enough memory for the POV-Ray scene");
     free(text);
+    return result;
+}
+
+enum turner_result turner_pov_write(const struct turner_scene *scene, const char *path)
+{
+    struct turner_pov_holes holes = {0};
+    TURNER_TRY(check_settings(scene));
+    enum turner_result result = check(&holes, scene);
+    if (result == TURNER_OK)
+        result = write_with(&holes, scene, path);
+    free(holes.list);
+    return result;
+}
+
+enum turner_result turner_pov_write_anyway(const struct turner_scene *scene, const char *path)
+{
+    struct turner_pov_holes holes = {0};
+    TURNER_TRY(check_settings(scene));
+    if (check(&holes, scene) != TURNER_OK) {
+        turner_warn("%s; written all the same, the picture will be another", turner_message());
+        holes.count = 0;
+    }
+    enum turner_result result = write_with(&holes, scene, path);
     free(holes.list);
     return result;
 }

@@ -13,4 +13,8 @@
  * written. */
 enum turner_result turner_pov_write(const struct turner_scene *scene, const char *path);
 
+/* The same, but of materials and solids that POV-Ray cannot say the first is a warning: its picture
+ * will be another, and take about the time that the right one would. */
+enum turner_result turner_pov_write_anyway(const struct turner_scene *scene, const char *path);
+
 #endif

@@ -36,6 +36,17 @@ def command():
     turner("export", "scene.json", "--pov", "-o", "x.pov", "--size", "20x10", "--depth", "11")
     text = pathlib.Path("x.pov").read_text()
     assert "+W20 +H10" in text and "max_trace_level 12\n" in text, text
+    pathlib.Path("glass.json").write_text(json.dumps(parts.base() | {
+        "materials": {"thin": {"k_t": 0.8, "index": 1.1, "fresnel": "none"}},
+        "primitives": [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "thin"}]}))
+    message = turner("export", "glass.json", "--pov", "-o", "g.pov", status=BAD_INPUT).stderr
+    assert "total internal reflection" in message and not pathlib.Path("g.pov").exists()
+    message = turner("export", "glass.json", "--pov", "-o", "g.pov", "--anyway").stderr
+    assert "total internal reflection" in message and "warning" in message, message
+    assert "sphere" in pathlib.Path("g.pov").read_text()
+    turner("export", "glass.json", "--pov", "-o", "g.pov", "--anyway", "--depth", "256",
+           status=BAD_INPUT)
+    turner("export", "glass.json", "--pov", "-o", "g.pov", "--anyway", "--run", status=USAGE)
     turner("export", "scene.json", "--pov", status=USAGE)
     turner("export", "scene.json", "-o", "x.pov", status=USAGE)
     turner("export", "--pov", "-o", "x.pov", status=USAGE)
