@@ -1,9 +1,17 @@
 #!/usr/bin/env python3
-"""Writes scenes/instances.json, a winter forest: make_forest.py FILE.json.
+"""Writes scenes/instances.json, a winter forest; the same file every time.
 
-Three firs, each a group of cones, are put many times on two hills; the same file every time."""
+Three firs, each a group of cones, are put many times on two hills. With --trees it is a plain with
+as many firs instead, whose transforms lie beside the scene in a file for each of the three.
+
+Examples:
+  tools/make_forest.py scenes/instances.json
+  tools/make_forest.py taiga.json --trees 10000000"""
+import argparse
+import array
 import json
 import math
+import os
 import random
 import sys
 
@@ -68,12 +76,60 @@ def place(rng, count):
     return spots
 
 
-def main():
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
+FIRS = {"fir": fir(4, 2.6, 0.80, "needles"), "young fir": fir(3, 1.7, 0.62, "light needles"),
+        "tall fir": fir(5, 3.6, 0.85, "dark needles")}
+
+MATERIALS = {
+    "snow": {"k_a": 0.95, "k_d": [0.86, 0.87, 0.90]},
+    "needles": {"k_a": [0.10, 0.22, 0.16], "k_d": [0.045, 0.13, 0.075]},
+    "light needles": {"k_a": [0.13, 0.26, 0.17], "k_d": [0.075, 0.18, 0.085]},
+    "dark needles": {"k_a": [0.08, 0.18, 0.15], "k_d": [0.03, 0.10, 0.07]},
+    "bark": {"k_a": 0.15, "k_d": [0.16, 0.09, 0.05]},
+}
+
+SUN = {"type": "directional", "direction": [-0.9, -0.36, -0.30], "irradiance": [3.4, 2.0, 1.0]}
+
+
+def write_plain(path, trees):
+    """Firs on a square lattice, each moved, turned and scaled at random: as many matrices in files,
+    and a scene that names them."""
     rng = random.Random(1980)
-    groups = {"fir": fir(4, 2.6, 0.80, "needles"), "young fir": fir(3, 1.7, 0.62, "light needles"),
-              "tall fir": fir(5, 3.6, 0.85, "dark needles")}
+    side = math.isqrt(trees - 1) + 1
+    names = [f"{os.path.splitext(path)[0]}-{name.replace(' ', '-')}.f32" for name in FIRS]
+    files = [open(name, "wb") for name in names]
+    for row in range(side):
+        rows = [array.array("f") for _ in files]
+        for column in range(min(side, trees - row * side)):
+            size, turn = rng.uniform(0.75, 1.25), rng.uniform(0, 2 * math.pi)
+            c, s = size * math.cos(turn), size * math.sin(turn)
+            x = 2.2 * (column - side / 2 + rng.uniform(-0.4, 0.4))
+            z = -2.2 * (row + rng.uniform(-0.4, 0.4))
+            rows[rng.randrange(len(rows))].extend(
+                (c, 0, s, x, 0, size * rng.uniform(0.9, 1.25), 0, 0, -s, 0, c, z))
+        for file, matrices in zip(files, rows):
+            if sys.byteorder != "little":
+                matrices.byteswap()
+            matrices.tofile(file)
+    for file in files:
+        file.close()
+    scene = dict(HEAD)
+    scene["description"] = f"{trees} firs, three of which are in the file."
+    scene["camera"] = {"from": [0, 9, 14], "at": [0, 0, -30], "vfov": 34}
+    scene["materials"] = MATERIALS
+    scene["primitives"] = [{"type": "plane", "point": [0, 0, 0], "normal": [0, 1, 0],
+                            "material": "snow"}]
+    scene["groups"] = FIRS
+    scene["instances"] = [{"group": group, "transforms": os.path.basename(name)}
+                          for group, name in zip(FIRS, names) if os.path.getsize(name)]
+    scene["lights"] = [SUN]
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(scene, file, indent=1)
+        file.write("\n")
+
+
+def write_hills(path):
+    rng = random.Random(1980)
+    groups = dict(FIRS)
     instances = []
     for x, z, size in place(rng, 640):
         name = rng.choice(("fir", "fir", "young fir", "tall fir", "tall fir"))
@@ -85,12 +141,7 @@ def main():
     scene = dict(HEAD)
     scene["description"] = (f"{len(instances)} firs, three of which are in the file: each is a "
                             "group of cones, put in place by an affine transform of its own.")
-    scene["materials"] = {
-        "snow": {"k_a": 0.95, "k_d": [0.86, 0.87, 0.90]},
-        "needles": {"k_a": [0.10, 0.22, 0.16], "k_d": [0.045, 0.13, 0.075]},
-        "light needles": {"k_a": [0.13, 0.26, 0.17], "k_d": [0.075, 0.18, 0.085]},
-        "dark needles": {"k_a": [0.08, 0.18, 0.15], "k_d": [0.03, 0.10, 0.07]},
-        "bark": {"k_a": 0.15, "k_d": [0.16, 0.09, 0.05]},
+    scene["materials"] = MATERIALS | {
         "logs": {"k_a": 0.35, "k_d": [0.26, 0.12, 0.06]},
         "window": {"k_e": [2.6, 1.5, 0.55]},
     }
@@ -115,7 +166,7 @@ def main():
     instances.append({"group": "house", "transform": [
         {"rotate": -14, "axis": [0, 1, 0]}, {"translate": [hx, round(hy, 2), hz]}]})
     scene["lights"] = [
-        {"type": "directional", "direction": [-0.9, -0.36, -0.30], "irradiance": [3.4, 2.0, 1.0]},
+        SUN,
         {"type": "point", "position": [hx, round(hy + 0.6, 2), hz + 1.9],
          "intensity": [1.6, 0.9, 0.35]},
     ]
@@ -129,8 +180,22 @@ def main():
         f'"{name}": [\n      ' + ",\n      ".join(json.dumps(p) for p in parts) + "\n    ]"
         for name, parts in groups.items()) + "\n  }"
     text += ',\n  "instances": [\n    ' + rows(instances) + "\n  ]\n}\n"
-    with open(sys.argv[1], "w", encoding="utf-8") as file:
+    with open(path, "w", encoding="utf-8") as file:
         file.write(text)
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", help="the scene to write, .json")
+    parser.add_argument("--trees", type=int, help="a plain with so many firs, 1 to 16,777,215")
+    arguments = parser.parse_args()
+    if arguments.trees is None:
+        write_hills(arguments.file)
+    elif 1 <= arguments.trees < 2 ** 24:
+        write_plain(arguments.file, arguments.trees)
+    else:
+        parser.error("--trees must be 1 to 16777215")
 
 
 if __name__ == "__main__":

@@ -230,7 +230,7 @@ done:
     return result;
 }
 
-void turner_flat_destroy(struct turner_flat *flat)
+void turner_flat_release(struct turner_flat *flat)
 {
     free(flat->nodes);
     free(flat->primitives);
@@ -238,6 +238,17 @@ void turner_flat_destroy(struct turner_flat *flat)
     free(flat->corners);
     free(flat->normals);
     free(flat->uvs);
+    flat->nodes = NULL;
+    flat->primitives = NULL;
+    flat->instances = NULL;
+    flat->corners = NULL;
+    flat->normals = NULL;
+    flat->uvs = NULL;
+}
+
+void turner_flat_destroy(struct turner_flat *flat)
+{
+    turner_flat_release(flat);
     free(flat->groups);
     free(flat->instance_groups);
     *flat = (struct turner_flat){0};

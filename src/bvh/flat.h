@@ -48,6 +48,9 @@ enum turner_result turner_flat_create(struct turner_flat *flat, const struct tur
                                       enum turner_order order);
 void turner_flat_destroy(struct turner_flat *flat);
 
+/* Frees the arrays that a device has copies of; counts, groups and instance_groups stay. */
+void turner_flat_release(struct turner_flat *flat);
+
 /* What rounding took from flat->primitives and flat->instances (rest.c), in their order: with it
  * 48 binary digits of a number stand. */
 void turner_flat_primitive_rests(struct turner_gpu_primitive_rest *rests,

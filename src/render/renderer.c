@@ -152,6 +152,7 @@ static enum turner_result create(struct turner_renderer *renderer,
     double specialised = turner_seconds();
     TURNER_TRY(turner_device_scene_create(&renderer->scene, gpu, scene, &renderer->flat,
                                           &renderer->needs, renderer->ray_query));
+    turner_flat_release(&renderer->flat);
     if (renderer->ray_query)
         TURNER_TRY(turner_program_bind_acceleration(&renderer->program, gpu, TURNER_BINDING_TLAS,
                                                     renderer->scene.top.handle));

@@ -35,6 +35,11 @@ void turner_mesh_destroy(struct turner_mesh *mesh);
 enum turner_result turner_scene_texture(uint32_t *image, struct turner_scene *scene,
                                         const char *path);
 
+/* Appends instances like `like`, one for each transform in the file: 3 rows of 4 little-endian
+ * 32-bit floats each, and nothing else. TURNER_BAD_INPUT with the path and the reason. */
+enum turner_result turner_scene_add_instances(struct turner_scene *scene,
+                                              const struct turner_instance *like, const char *path);
+
 /* The path of `name` as written in the file `path`: relative names start at its folder. The caller
  * frees it. */
 char *turner_path_beside(const char *path, const char *name);

@@ -101,6 +101,60 @@ static void files_beside(void **state)
     turner_scene_destroy(scene);
 }
 
+static void transforms_beside(void **state)
+{
+    (void)state;
+    struct turner_scene *scene;
+    assert_int_equal(
+        turner_scene_load(&scene, TURNER_SOURCE_DIR "/tests/scene/data/good/instances.json"),
+        TURNER_OK);
+    assert_int_equal(scene->instance_count, 4);
+    const struct turner_instance *i = scene->instances;
+    assert_true(i[0].material == TURNER_NONE && i[3].material == TURNER_NONE);
+    assert_true(i[1].group == 1 && i[1].material == 0 && i[2].group == 1 && i[2].material == 0);
+    same(turner_affine_point(&i[1].transform, turner_vec3_of(1, 2, 3)), 3, 1, 3.5);
+    same(turner_affine_point(&i[2].transform, turner_vec3_of(1, 2, 3)), 6, 4, 5);
+    same(turner_affine_point(&i[3].transform, turner_vec3_of(0, 0, 0)), 3, 0, 0);
+    turner_scene_destroy(scene);
+}
+
+#define MANY HEAD ", \"groups\": {\"g\": []}, \"instances\": [\n{\"group\": \"g\", \"transforms\": \"m\"}]}"
+
+/* A scene whose file of transforms has this content is refused with this reason. */
+static void transforms_refused(const void *content, size_t size, off_t length, const char *reason)
+{
+    char rest[1024];
+    const char *path = write_file("m", "");
+    FILE *file = fopen(path, "wb");
+    fwrite(content, 1, size, file);
+    fclose(file);
+    assert_int_equal(truncate(path, length), 0);
+    write_file("many.json", MANY);
+    snprintf(rest, sizeof rest, ":2:30: %s/m: %s (at $.instances[0].transforms)", folder, reason);
+    refused("many.json", rest);
+}
+
+static void wrong_transforms(void **state)
+{
+    (void)state;
+    float matrix[24] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0};
+    const size_t size = sizeof matrix;
+    const char *whole = "bytes are no whole number of transforms, which have 48 each (3 rows of 4 "
+                        "32-bit floats)";
+    const char *flat = "transform 1 (counted from 0) flattens space or is not finite; it must hold "
+                       "12 little-endian 32-bit floats for each instance, 3 rows of 4";
+    char reason[512];
+    snprintf(reason, sizeof reason, "0 %s", whole);
+    transforms_refused("", 0, 0, reason);
+    snprintf(reason, sizeof reason, "95 %s", whole);
+    transforms_refused(matrix, size, 95, reason);
+    transforms_refused(matrix, size, (off_t)size, flat); /* the second has a row of zeros */
+    matrix[22] = NAN;
+    transforms_refused(matrix, size, (off_t)size, flat);
+    transforms_refused(matrix, size, (off_t)48 << 24, "with its transforms there are 16777216 "
+                       "instances, and 16777215 are the limit");
+}
+
 /* The place in the scene file stands around the message of whoever read the other file. */
 static void files_missing_beside(void **state)
 {
@@ -172,6 +226,8 @@ int main(void)
         cmocka_unit_test(not_a_scene_file),
         cmocka_unit_test(endings),
         cmocka_unit_test(files_beside),
+        cmocka_unit_test(transforms_beside),
+        cmocka_unit_test(wrong_transforms),
         cmocka_unit_test(files_missing_beside),
         cmocka_unit_test(bare_meshes),
     };
