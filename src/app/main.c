@@ -2,6 +2,7 @@
 #include <locale.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -76,6 +77,7 @@ int main(int argc, char **argv)
     hold_standard_streams();
     setlocale(LC_ALL, "C");
     catch_signals();
+    atexit(turner_image_abandon); /* memory may run out while a picture is written */
     if (argc < 2) {
         print_help(stderr);
         return TURNER_USAGE;

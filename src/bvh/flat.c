@@ -123,42 +123,6 @@ static enum turner_result flatten_groups(struct turner_flat *flat, const struct 
     return TURNER_OK;
 }
 
-/* Fills the instances, and items with the bounds of those that are not empty; *used says how
- * many. */
-static enum turner_result flatten_instances(struct turner_flat *flat,
-                                            const struct turner_scene *scene,
-                                            struct turner_bvh_item *items, uint32_t *used)
-{
-    *used = 0;
-    for (size_t i = 0; i < flat->instance_count; i++) {
-        const struct turner_instance world = {.material = TURNER_NONE,
-                                              .transform = TURNER_AFFINE_IDENTITY};
-        const struct turner_instance *instance = i ? &scene->instances[i - 1] : &world;
-        const struct turner_flat_group *group = &flat->groups[instance->group];
-        struct turner_gpu_instance *out = &flat->instances[i];
-        struct turner_bvh_bounds bounds, box;
-        memcpy(box.lo, group->lo, sizeof box.lo);
-        memcpy(box.hi, group->hi, sizeof box.hi);
-        if (!turner_flat_instance(out, &bounds, &instance->transform, &box))
-            return turner_fail(TURNER_BAD_INPUT,
-                               "instance %zu: its transform, the inverse or what it shows does not "
-                               "fit single precision; scale it less",
-                               i - 1);
-        out->root = group->root;
-        out->triangles = group->triangles;
-        out->boxes = group->boxes;
-        out->material = turner_flat_material(scene, instance->material);
-        flat->instance_groups[i] = instance->group;
-        if (box.lo[0] > box.hi[0])
-            continue;
-        struct turner_bvh_item *item = &items[(*used)++];
-        *item = (struct turner_bvh_item){.index = (uint32_t)i};
-        memcpy(item->lo, bounds.lo, sizeof item->lo);
-        memcpy(item->hi, bounds.hi, sizeof item->hi);
-    }
-    return TURNER_OK;
-}
-
 /* The top level: leaves of one instance, named by its index, because instances stay in the order of
  * the scene, which decides ties. */
 static void build_top(struct turner_flat *flat, struct turner_bvh_item *items, uint32_t count,
@@ -215,7 +179,7 @@ enum turner_result turner_flat_create(struct turner_flat *flat, const struct tur
     uint32_t used;
     TURNER_TRY_DONE(
         flatten_groups(flat, scene, order, patterned, items, group_levels, group_nodes));
-    TURNER_TRY_DONE(flatten_instances(flat, scene, items, &used));
+    TURNER_TRY_DONE(turner_flat_instances(flat, scene, items, &used));
     if (order == TURNER_ORDER_SAH) {
         build_top(flat, items, used, group_levels, group_nodes, scene->group_count);
         flat->nodes = turner_realloc(flat->nodes, flat->node_count, sizeof *flat->nodes);

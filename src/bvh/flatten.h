@@ -46,11 +46,10 @@ void turner_flat_place(struct turner_gpu_primitive *primitives,
                        const struct turner_flat_source *source, const struct turner_bvh_item *items,
                        uint32_t count);
 
-/* Fills the transforms and spawn_scale of an instance, and the bounds in the world of what has the
- * bounds `box` in the group, rounded outwards by what transforming in floats may err. False when
- * something does not fit a float. */
-bool turner_flat_instance(struct turner_gpu_instance *instance, struct turner_bvh_bounds *world,
-                          const struct turner_affine *to_world,
-                          const struct turner_bvh_bounds *box);
+/* Fills flat->instances and instance_groups, and items with the bounds in the world of those that
+ * are not empty, in their order; *used says how many. A group's bounds are rounded outwards by what
+ * transforming in floats may err. TURNER_BAD_INPUT when something does not fit a float. */
+enum turner_result turner_flat_instances(struct turner_flat *flat, const struct turner_scene *scene,
+                                         struct turner_bvh_item *items, uint32_t *used);
 
 #endif

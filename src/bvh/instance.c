@@ -1,7 +1,11 @@
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "bvh/flatten.h"
+
+#define PIECE 8192 /* instances that one thread takes at once */
 
 /* Rows of 3×4 in floats; false when one of them is not finite. */
 static bool round_affine(float out[12], const struct turner_affine *affine)
@@ -39,8 +43,10 @@ static void transform_box(double lo[3], double hi[3], const struct turner_affine
     }
 }
 
-bool turner_flat_instance(struct turner_gpu_instance *instance, struct turner_bvh_bounds *world,
-                          const struct turner_affine *to_world, const struct turner_bvh_bounds *box)
+/* The transforms and spawn_scale of an instance, and the bounds in the world of what has the bounds
+ * `box` in the group. False when something does not fit a float. */
+static bool flatten(struct turner_gpu_instance *instance, struct turner_bvh_bounds *world,
+                    const struct turner_affine *to_world, const struct turner_bvh_bounds *box)
 {
     *world = *box;
     struct turner_affine to_group;
@@ -84,4 +90,60 @@ bool turner_flat_instance(struct turner_gpu_instance *instance, struct turner_bv
             return false;
     }
     return true;
+}
+
+struct flattening {
+    struct turner_flat *flat;
+    const struct turner_scene *scene;
+    struct turner_bvh_item *items; /* of all instances: lo > hi where they are empty */
+    atomic_uint broken;            /* the first one that does not fit */
+};
+
+static void flatten_piece(void *user, uint32_t piece)
+{
+    struct flattening *f = user;
+    const struct turner_flat *flat = f->flat;
+    const struct turner_instance world = {.material = TURNER_NONE,
+                                          .transform = TURNER_AFFINE_IDENTITY};
+    uint32_t end = turner_piece_end((uint32_t)flat->instance_count, PIECE, piece);
+    for (uint32_t i = piece * PIECE; i < end; i++) {
+        const struct turner_instance *instance = i ? &f->scene->instances[i - 1] : &world;
+        const struct turner_flat_group *group = &flat->groups[instance->group];
+        struct turner_gpu_instance *out = &flat->instances[i];
+        struct turner_bvh_bounds bounds, box;
+        memcpy(box.lo, group->lo, sizeof box.lo);
+        memcpy(box.hi, group->hi, sizeof box.hi);
+        if (!flatten(out, &bounds, &instance->transform, &box)) {
+            unsigned first = atomic_load(&f->broken);
+            while (i < first && !atomic_compare_exchange_weak(&f->broken, &first, i))
+                continue;
+        }
+        out->root = group->root;
+        out->triangles = group->triangles;
+        out->boxes = group->boxes;
+        out->material = turner_flat_material(f->scene, instance->material);
+        flat->instance_groups[i] = instance->group;
+        f->items[i] = (struct turner_bvh_item){.index = i};
+        memcpy(f->items[i].lo, bounds.lo, sizeof bounds.lo);
+        memcpy(f->items[i].hi, bounds.hi, sizeof bounds.hi);
+    }
+}
+
+enum turner_result turner_flat_instances(struct turner_flat *flat, const struct turner_scene *scene,
+                                         struct turner_bvh_item *items, uint32_t *used)
+{
+    struct flattening flattening = {flat, scene, items, UINT32_MAX};
+    uint32_t count = (uint32_t)flat->instance_count;
+    turner_parallel_for(turner_pieces(count, PIECE), flatten_piece, &flattening);
+    if (flattening.broken < UINT32_MAX)
+        return turner_fail(TURNER_BAD_INPUT,
+                           "instance %u: its transform, the inverse or what it shows does not fit "
+                           "single precision; scale it less",
+                           flattening.broken - 1);
+    *used = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (items[i].lo[0] <= items[i].hi[0])
+            items[(*used)++] = items[i];
+    }
+    return TURNER_OK;
 }

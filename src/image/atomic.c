@@ -82,40 +82,63 @@ static int open_part(void)
     return open(part, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 
-static int write_all(int file, const char *bytes, size_t size)
+enum turner_result turner_atomic_begin(struct turner_atomic *atomic, const char *path)
 {
-    while (size) {
-        ssize_t written = write(file, bytes, size);
+    *atomic = (struct turner_atomic){.path = path, .file = -1};
+    pthread_mutex_lock(&lock);
+    enum turner_result result = aim(atomic->target, path);
+    if (result == TURNER_OK) {
+        atomic->file = open_part();
+        if (atomic->file < 0)
+            result = cannot(path, errno);
+    }
+    if (result != TURNER_OK) {
+        pending = false;
+        pthread_mutex_unlock(&lock);
+    }
+    return result;
+}
+
+bool turner_atomic_put(struct turner_atomic *atomic, const void *bytes, size_t size,
+                       uint64_t offset)
+{
+    const char *from = bytes;
+    while (size && !atomic->error) {
+        ssize_t written = pwrite(atomic->file, from, size, (off_t)offset);
         if (written < 0 && errno == EINTR)
             continue;
-        if (written <= 0)
-            return written < 0 ? errno : ENOSPC;
-        bytes += written;
+        if (written <= 0) {
+            atomic->error = written < 0 ? errno : ENOSPC;
+            break;
+        }
+        from += written;
+        offset += (uint64_t)written;
         size -= (size_t)written;
     }
-    return 0;
+    return !atomic->error;
+}
+
+enum turner_result turner_atomic_end(struct turner_atomic *atomic, enum turner_result result)
+{
+    int error = atomic->error;
+    if (close(atomic->file) != 0 && !error)
+        error = errno;
+    bool keep = !error && result == TURNER_OK;
+    if (keep && rename(part, atomic->target) != 0)
+        error = errno;
+    if (error || !keep)
+        unlink(part);
+    pending = false;
+    pthread_mutex_unlock(&lock);
+    return error ? cannot(atomic->path, error) : result;
 }
 
 enum turner_result turner_atomic_write(const char *path, const void *bytes, size_t size)
 {
-    char target[PATH_MAX];
-    pthread_mutex_lock(&lock);
-    enum turner_result result = aim(target, path);
-    if (result == TURNER_OK) {
-        int file = open_part();
-        int error = file < 0 ? errno : write_all(file, bytes, size);
-        if (file >= 0 && close(file) != 0 && !error)
-            error = errno;
-        if (!error && rename(part, target) != 0)
-            error = errno;
-        if (error && file >= 0)
-            unlink(part);
-        pending = false;
-        if (error)
-            result = cannot(path, error);
-    }
-    pthread_mutex_unlock(&lock);
-    return result;
+    struct turner_atomic atomic;
+    TURNER_TRY(turner_atomic_begin(&atomic, path));
+    turner_atomic_put(&atomic, bytes, size, 0);
+    return turner_atomic_end(&atomic, TURNER_OK);
 }
 
 enum turner_result turner_atomic_check(const char *path)

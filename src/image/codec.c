@@ -1,38 +1,25 @@
 #include "image/codec.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/memory.h"
-#include "image/atomic.h"
 #include "image/oiio.h"
 
-void turner_bytes_reserve(struct turner_bytes *bytes, size_t capacity)
+static void take(void *user, const void *bytes, size_t size)
 {
-    if (capacity <= bytes->capacity)
-        return;
-    size_t more = bytes->capacity + bytes->capacity / 2;
-    bytes->capacity = capacity > more ? capacity : more;
-    bytes->at = turner_realloc(bytes->at, bytes->capacity, 1);
+    turner_atomic_put(user, bytes, size, 0);
 }
 
-static void take(void *user, const void *file, size_t size)
-{
-    struct turner_bytes *bytes = user;
-    turner_bytes_reserve(bytes, size);
-    memcpy(bytes->at, file, size);
-    bytes->size = size;
-}
-
-static enum turner_result encode(struct turner_bytes *bytes, const char *path,
-                                 const struct turner_format *format,
+static enum turner_result encode(struct turner_atomic *file, const struct turner_format *format,
                                  const struct turner_image *image,
                                  const struct turner_image_encoding *encoding)
 {
     const struct turner_oiio *oiio = turner_oiio_load();
     if (!oiio)
-        return turner_fail_within(TURNER_DEVICE, "cannot write %s", path);
-    void *samples = turner_format_pack(format, image, encoding);
+        return turner_fail_within(TURNER_DEVICE, "cannot write %s", file->path);
+    size_t pixels = (size_t)image->width * (size_t)image->height;
+    void *samples = turner_calloc(pixels, turner_format_pixel(format));
+    turner_format_pack(samples, format, image, encoding, 0, image->height);
     const struct turner_oiio_picture picture = {
         .codec = format->codec,
         .width = image->width,
@@ -44,10 +31,11 @@ static enum turner_result encode(struct turner_bytes *bytes, const char *path,
         .text_count = encoding->text_count,
     };
     char reason[TURNER_OIIO_REASON];
-    enum turner_oiio_result result = oiio->encode(&picture, take, bytes, reason);
+    enum turner_oiio_result result = oiio->encode(&picture, take, file, reason);
     free(samples);
     if (result != TURNER_OIIO_OK)
-        return turner_fail(TURNER_OUTPUT, "cannot write %s: %s; use another ending", path, reason);
+        return turner_fail(TURNER_OUTPUT, "cannot write %s: %s; use another ending", file->path,
+                           reason);
     return TURNER_OK;
 }
 
@@ -55,13 +43,10 @@ enum turner_result turner_codec_write(const char *path, const struct turner_form
                                       const struct turner_image *image,
                                       const struct turner_image_encoding *encoding)
 {
-    struct turner_bytes bytes = {0};
-    enum turner_result result =
-        (format->encode ? format->encode : encode)(&bytes, path, format, image, encoding);
-    if (result == TURNER_OK)
-        result = turner_atomic_write(path, bytes.at, bytes.size);
-    free(bytes.at);
-    return result;
+    struct turner_atomic file;
+    TURNER_TRY(turner_atomic_begin(&file, path));
+    return turner_atomic_end(
+        &file, (format->encode ? format->encode : encode)(&file, format, image, encoding));
 }
 
 static float *begin(void *user, int width, int height)

@@ -3,16 +3,8 @@
 #ifndef TURNER_IMAGE_CODEC_H
 #define TURNER_IMAGE_CODEC_H
 
+#include "image/atomic.h"
 #include "image/image.h"
-
-/* A file in memory; free `at`. Zeroed is empty. */
-struct turner_bytes {
-    uint8_t *at;
-    size_t size, capacity;
-};
-
-/* Makes room for `capacity` bytes in all; those beyond `size` are undefined. */
-void turner_bytes_reserve(struct turner_bytes *bytes, size_t capacity);
 
 enum turner_sample { TURNER_SAMPLE_U8, TURNER_SAMPLE_U16, TURNER_SAMPLE_FLOAT };
 
@@ -23,18 +15,16 @@ struct turner_format {
     enum turner_sample sample;
     bool nonfinite; /* the format can hold NaN and infinity */
     bool channels;  /* it can hold more than RGB, each of a type of its own */
-    /* Appends the file to `bytes`; `path` is for messages. NULL: by OpenImageIO. */
-    enum turner_result (*encode)(struct turner_bytes *bytes, const char *path,
-                                 const struct turner_format *format,
+    /* Writes the file. NULL: by OpenImageIO. */
+    enum turner_result (*encode)(struct turner_atomic *file, const struct turner_format *format,
                                  const struct turner_image *image,
                                  const struct turner_image_encoding *encoding);
 };
 
-enum turner_result turner_encode_png(struct turner_bytes *bytes, const char *path,
-                                     const struct turner_format *format,
+enum turner_result turner_encode_png(struct turner_atomic *file, const struct turner_format *format,
                                      const struct turner_image *image,
                                      const struct turner_image_encoding *encoding);
-enum turner_result turner_encode_exr(struct turner_bytes *bytes, const char *path,
+enum turner_result turner_encode_exr(struct turner_atomic *output,
                                      const struct turner_format *format,
                                      const struct turner_image *image,
                                      const struct turner_image_encoding *encoding);
@@ -42,12 +32,16 @@ enum turner_result turner_encode_exr(struct turner_bytes *bytes, const char *pat
 /* The format for the ending of `path`; NULL and TURNER_USAGE's message when there is none. */
 const struct turner_format *turner_format_find(const char *path);
 
-/* width × height × 3 samples as turner_format says, owned by the caller (free). Applies exposure,
- * curve and rounding to integer formats. */
-void *turner_format_pack(const struct turner_format *format, const struct turner_image *image,
-                         const struct turner_image_encoding *encoding);
+/* Bytes of a pixel's three samples. */
+size_t turner_format_pixel(const struct turner_format *format);
 
-/* Encodes `image` in memory and writes it with turner_atomic_write. */
+/* Rows `row` … `row` + `rows` − 1 into rows × width × 3 samples as turner_format says. Applies
+ * exposure, curve and rounding to integer formats. */
+void turner_format_pack(void *samples, const struct turner_format *format,
+                        const struct turner_image *image,
+                        const struct turner_image_encoding *encoding, int row, int rows);
+
+/* Encodes `image` into a file aside; OpenImageIO does so in memory first. */
 enum turner_result turner_codec_write(const char *path, const struct turner_format *format,
                                       const struct turner_image *image,
                                       const struct turner_image_encoding *encoding);

@@ -5,7 +5,6 @@
 #include <strings.h>
 
 #include "base/memory.h"
-#include "image/atomic.h"
 #include "image/codec.h"
 
 /* IEC 61966-2-1:1999, 5.2 and 5.3, with the constants of its amendment 1. */
@@ -59,15 +58,21 @@ static double encode(float radiance, double scale, bool linear)
     return linear ? v : turner_linear_to_srgb(v);
 }
 
-void *turner_format_pack(const struct turner_format *format, const struct turner_image *image,
-                         const struct turner_image_encoding *encoding)
+size_t turner_format_pixel(const struct turner_format *format)
 {
     static const size_t sizes[] = {1, 2, sizeof(float)}; /* by turner_sample */
-    size_t pixels = (size_t)image->width * (size_t)image->height;
-    void *samples = turner_calloc(pixels * 3, sizes[format->sample]);
+    return 3 * sizes[format->sample];
+}
+
+void turner_format_pack(void *samples, const struct turner_format *format,
+                        const struct turner_image *image,
+                        const struct turner_image_encoding *encoding, int row, int rows)
+{
+    const float *rgba = image->rgba + (size_t)row * (size_t)image->width * 4;
+    size_t pixels = (size_t)image->width * (size_t)rows;
     double scale = exp2(encoding->exposure);
     for (size_t i = 0; i < pixels * 3; i++) {
-        float v = image->rgba[i / 3 * 4 + i % 3];
+        float v = rgba[i / 3 * 4 + i % 3];
         switch (format->sample) {
         case TURNER_SAMPLE_U8:
             ((uint8_t *)samples)[i] = (uint8_t)(encode(v, scale, encoding->linear) * 255 + .5);
@@ -80,7 +85,6 @@ void *turner_format_pack(const struct turner_format *format, const struct turner
             break;
         }
     }
-    return samples;
 }
 
 enum turner_result turner_image_check_channels(const char *path)

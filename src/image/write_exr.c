@@ -1,5 +1,4 @@
-/* OpenEXR through its C interface, into memory: scanlines, ZIP, channels of floats and whole
- * numbers. */
+/* OpenEXR through its C interface: scanlines, ZIP, channels of floats and whole numbers. */
 #include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,12 +12,8 @@ static int64_t write_at(exr_const_context_t context, void *user, const void *byt
                         uint64_t offset, exr_stream_error_func_ptr_t error)
 {
     (void)context, (void)error;
-    struct turner_bytes *file = user;
-    turner_bytes_reserve(file, offset + size);
-    memcpy(file->at + offset, bytes, size);
-    if (offset + size > file->size)
-        file->size = offset + size;
-    return (int64_t)size;
+    /* turner_atomic_end has the reason */
+    return turner_atomic_put(user, bytes, size, offset) ? (int64_t)size : -1;
 }
 
 static void stay_silent(exr_const_context_t context, exr_result_t code, const char *message)
@@ -113,18 +108,18 @@ static exr_result_t write_all(exr_context_t file, const struct turner_image *ima
     return result;
 }
 
-enum turner_result turner_encode_exr(struct turner_bytes *bytes, const char *path,
+enum turner_result turner_encode_exr(struct turner_atomic *output,
                                      const struct turner_format *format,
                                      const struct turner_image *image,
                                      const struct turner_image_encoding *encoding)
 {
     (void)format; /* there is one */
     exr_context_initializer_t start = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    start.user_data = bytes;
+    start.user_data = output;
     start.write_fn = write_at;
     start.error_handler_fn = stay_silent;
     exr_context_t file = NULL;
-    exr_result_t result = exr_start_write(&file, path, EXR_WRITE_FILE_DIRECTLY, &start);
+    exr_result_t result = exr_start_write(&file, output->path, EXR_WRITE_FILE_DIRECTLY, &start);
     if (result == EXR_ERR_SUCCESS)
         result = write_all(file, image, encoding);
     if (file) {
@@ -132,7 +127,7 @@ enum turner_result turner_encode_exr(struct turner_bytes *bytes, const char *pat
         result = result == EXR_ERR_SUCCESS ? finished : result;
     }
     if (result != EXR_ERR_SUCCESS)
-        return turner_fail(TURNER_OUTPUT, "cannot write %s: %s; use another ending", path,
+        return turner_fail(TURNER_OUTPUT, "cannot write %s: %s; use another ending", output->path,
                            exr_get_default_error_message(result));
     return TURNER_OK;
 }

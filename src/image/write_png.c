@@ -1,4 +1,4 @@
-/* PNG through libpng, into memory. */
+/* PNG through libpng, row after row. */
 #include <png.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -7,12 +7,17 @@
 #include "base/memory.h"
 #include "image/codec.h"
 
+struct output {
+    struct turner_atomic *file;
+    uint64_t size; /* written so far */
+};
+
 static void append(png_structp png, png_bytep bytes, size_t size)
 {
-    struct turner_bytes *file = png_get_io_ptr(png);
-    turner_bytes_reserve(file, file->size + size);
-    memcpy(file->at + file->size, bytes, size);
-    file->size += size;
+    struct output *output = png_get_io_ptr(png);
+    if (!turner_atomic_put(output->file, bytes, size, output->size))
+        png_error(png, "writing failed"); /* turner_atomic_end has the reason */
+    output->size += size;
 }
 
 static void stay(png_structp png)
@@ -56,40 +61,41 @@ static void describe(png_structp png, png_infop info, const struct turner_format
 /* What libpng jumps back to must not have changed since: everything is made by the caller. */
 static bool write_all(png_structp png, png_infop info, const struct turner_format *format,
                       const struct turner_image *image,
-                      const struct turner_image_encoding *encoding, const uint8_t *samples)
+                      const struct turner_image_encoding *encoding, uint8_t *row)
 {
     if (setjmp(png_jmpbuf(png)))
         return false;
     describe(png, info, format, image, encoding);
     png_write_info(png, info);
-    size_t row = (size_t)image->width * (format->sample == TURNER_SAMPLE_U16 ? 6 : 3);
     if (format->sample == TURNER_SAMPLE_U16)
         png_set_swap(png); /* the file's order is big-endian */
-    for (int y = 0; y < image->height; y++)
-        png_write_row(png, samples + (size_t)y * row);
+    for (int y = 0; y < image->height; y++) {
+        turner_format_pack(row, format, image, encoding, y, 1);
+        png_write_row(png, row);
+    }
     png_write_end(png, info);
     return true;
 }
 
-enum turner_result turner_encode_png(struct turner_bytes *bytes, const char *path,
-                                     const struct turner_format *format,
+enum turner_result turner_encode_png(struct turner_atomic *file, const struct turner_format *format,
                                      const struct turner_image *image,
                                      const struct turner_image_encoding *encoding)
 {
     struct fault fault = {"no memory"};
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &fault, fail, ignore);
     png_infop info = png ? png_create_info_struct(png) : NULL;
+    struct output output = {.file = file};
     bool written = false;
     if (info) {
-        png_set_write_fn(png, bytes, append, stay);
+        png_set_write_fn(png, &output, append, stay);
         png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
-        void *samples = turner_format_pack(format, image, encoding);
-        written = write_all(png, info, format, image, encoding, samples);
-        free(samples);
+        uint8_t *row = turner_calloc((size_t)image->width, turner_format_pixel(format));
+        written = write_all(png, info, format, image, encoding, row);
+        free(row);
     }
     png_destroy_write_struct(&png, &info);
     if (!written)
-        return turner_fail(TURNER_OUTPUT, "cannot write %s: %s; use another ending", path,
+        return turner_fail(TURNER_OUTPUT, "cannot write %s: %s; use another ending", file->path,
                            fault.reason);
     return TURNER_OK;
 }

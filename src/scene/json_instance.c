@@ -101,7 +101,8 @@ static enum turner_result read_transform(struct turner_affine *transform,
         *transform = turner_affine_multiply(&step, transform);
     }
     if (!turner_affine_usable(transform))
-        return json_fail(reader, value, "together these steps flatten space or leave the range of "
+        return json_fail(reader, value,
+                         "together these steps flatten space or leave the range of "
                          "numbers");
     return TURNER_OK;
 }
@@ -137,13 +138,14 @@ static enum turner_result read_instance(struct json_reader *reader, const struct
     const struct json_value *transform = json_member(&object, "transform");
     const struct json_value *transforms = json_member(&object, "transforms");
     const struct json_value *material = json_member(&object, "material");
-    TURNER_TRY(json_find_name(&instance.group, reader, json_member(&object, "group"),
-                              &reader->groups));
+    TURNER_TRY(
+        json_find_name(&instance.group, reader, json_member(&object, "group"), &reader->groups));
     instance.group++; /* group 0 is the world */
     if (material)
         TURNER_TRY(json_find_name(&instance.material, reader, material, &reader->materials));
     if (transform && transforms)
-        return json_fail_key(reader, transforms, "an instance has only one of \"transform\" and "
+        return json_fail_key(reader, transforms,
+                             "an instance has only one of \"transform\" and "
                              "\"transforms\"");
     if (transforms)
         return read_many(reader, &instance, transforms);

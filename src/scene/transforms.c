@@ -13,8 +13,8 @@
 
 static double number_at(const unsigned char *bytes)
 {
-    uint32_t bits = bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 |
-                    (uint32_t)bytes[3] << 24;
+    uint32_t bits =
+        bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
     float number;
     memcpy(&number, &bits, sizeof number);
     return (double)number;
@@ -37,8 +37,10 @@ static enum turner_result read_all(struct turner_instance *instances, size_t cou
             for (int k = 0; k < NUMBERS; k++)
                 transform->m[k / 4][k % 4] = number_at(bytes[i] + 4 * k);
             if (!turner_affine_usable(transform))
-                return turner_fail(TURNER_BAD_INPUT, "%s: transform %zu (counted from 0) flattens "
-                                   "space or is not finite; %s", path, done, hint);
+                return turner_fail(TURNER_BAD_INPUT,
+                                   "%s: transform %zu (counted from 0) flattens "
+                                   "space or is not finite; %s",
+                                   path, done, hint);
         }
     }
     return TURNER_OK;
@@ -54,14 +56,16 @@ enum turner_result turner_scene_add_instances(struct turner_scene *scene,
     if (!S_ISREG(status.st_mode))
         return turner_fail(TURNER_BAD_INPUT, "%s: not a file", path);
     if (status.st_size == 0 || status.st_size % BYTES != 0)
-        return turner_fail(TURNER_BAD_INPUT, "%s: %lld bytes are no whole number of transforms, "
-                           "which have %d each (3 rows of 4 32-bit floats)", path,
-                           (long long)status.st_size, BYTES);
+        return turner_fail(TURNER_BAD_INPUT,
+                           "%s: %lld bytes are no whole number of transforms, "
+                           "which have %d each (3 rows of 4 32-bit floats)",
+                           path, (long long)status.st_size, BYTES);
     uint64_t count = (uint64_t)status.st_size / BYTES;
     if (count > TURNER_MAX_INSTANCES - scene->instance_count)
-        return turner_fail(TURNER_BAD_INPUT, "%s: with its transforms there are %llu instances, "
-                           "and %u are the limit", path,
-                           (unsigned long long)(scene->instance_count + count),
+        return turner_fail(TURNER_BAD_INPUT,
+                           "%s: with its transforms there are %llu instances, "
+                           "and %u are the limit",
+                           path, (unsigned long long)(scene->instance_count + count),
                            TURNER_MAX_INSTANCES);
     FILE *file = fopen(path, "rb");
     if (!file)
