@@ -36,15 +36,15 @@ static int break_now(void)
     return -1;
 }
 
-ssize_t write(int file, const void *bytes, size_t size)
+ssize_t pwrite(int file, const void *bytes, size_t size, off_t offset)
 {
     char link[64], path[4096];
     snprintf(link, sizeof link, "/proc/self/fd/%d", file);
     ssize_t length = readlink(link, path, sizeof path - 1);
     path[length > 0 ? length : 0] = 0;
     if (!breaks("write") || !is_part(path))
-        return syscall(SYS_write, file, bytes, size);
-    syscall(SYS_write, file, bytes, size / 2);
+        return syscall(SYS_pwrite64, file, bytes, size, offset);
+    syscall(SYS_pwrite64, file, bytes, size / 2, offset);
     return break_now();
 }
 
