@@ -8,6 +8,7 @@
 
 #define LONG_SECONDS 0.5 /* builds that take longer are measured fewer times: */
 #define FEW_ROUNDS 3
+#define MOST_ROUNDS 11
 
 /* Of those that build on their own. */
 enum builder { OWN, DEVICE, EMBREE, EMBREE_ROBUST, BUILDERS };
@@ -111,7 +112,7 @@ static enum turner_result measure(struct turner_bench *bench, struct turner_benc
     }
     double longest = 0;
     for (int round = 0; round < bench->rounds; round++) {
-        if (longest > LONG_SECONDS && round >= FEW_ROUNDS)
+        if (round == MOST_ROUNDS || (longest > LONG_SECONDS && round >= FEW_ROUNDS))
             break;
         for (int which = 0; which < BUILDERS; which++) {
             struct turner_bench_build *own = builds[which];
