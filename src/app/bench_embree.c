@@ -70,7 +70,8 @@ struct turner_embree *turner_embree_open(int threads, const char **why)
     struct turner_embree *embree = turner_calloc(1, sizeof *embree);
     char config[64];
     *why = LIBRARY " is not installed (Debian: libembree-dev)";
-    embree->library = dlopen(LIBRARY, RTLD_NOW | RTLD_LOCAL);
+    /* never unloaded: threads of its own (TBB's) outlive its device */
+    embree->library = dlopen(LIBRARY, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
     bool whole = embree->library != NULL;
 #define LOAD(name) whole = whole && (*(void **)&embree->name = dlsym(embree->library, #name));
     FUNCTIONS(LOAD)
