@@ -19,7 +19,9 @@ static enum turner_result encode(struct turner_atomic *file, const struct turner
         return turner_fail_within(TURNER_DEVICE, "cannot write %s", file->path);
     size_t pixels = (size_t)image->width * (size_t)image->height;
     void *samples = turner_calloc(pixels, turner_format_pixel(format));
-    turner_format_pack(samples, format, image, encoding, 0, image->height);
+    struct turner_packer packer;
+    turner_packer_create(&packer, format, image, encoding);
+    turner_packer_rows(samples, &packer, 0, image->height);
     const struct turner_oiio_picture picture = {
         .codec = format->codec,
         .width = image->width,

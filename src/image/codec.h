@@ -35,11 +35,21 @@ const struct turner_format *turner_format_find(const char *path);
 /* Bytes of a pixel's three samples. */
 size_t turner_format_pixel(const struct turner_format *format);
 
-/* Rows `row` … `row` + `rows` − 1 into rows × width × 3 samples as turner_format says. Applies
- * exposure, curve and rounding to integer formats. */
-void turner_format_pack(void *samples, const struct turner_format *format,
-                        const struct turner_image *image,
-                        const struct turner_image_encoding *encoding, int row, int rows);
+/* What turns a picture's floats into a format's samples: exposure, curve and rounding for those of
+ * integers. */
+struct turner_packer {
+    const struct turner_format *format;
+    const struct turner_image *image;
+    double scale;
+    bool linear;
+    float least[256]; /* 8 bit: the least float that becomes so much */
+};
+void turner_packer_create(struct turner_packer *packer, const struct turner_format *format,
+                          const struct turner_image *image,
+                          const struct turner_image_encoding *encoding);
+
+/* Rows `row` … `row` + `rows` − 1 into rows × width × 3 samples as turner_format says. */
+void turner_packer_rows(void *samples, const struct turner_packer *packer, int row, int rows);
 
 /* Encodes `image` into a file aside; OpenImageIO does so in memory first. */
 enum turner_result turner_codec_write(const char *path, const struct turner_format *format,

@@ -1,4 +1,5 @@
 /* From linear floats to what a file holds, and back. */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -64,24 +65,67 @@ size_t turner_format_pixel(const struct turner_format *format)
     return 3 * sizes[format->sample];
 }
 
-void turner_format_pack(void *samples, const struct turner_format *format,
-                        const struct turner_image *image,
-                        const struct turner_image_encoding *encoding, int row, int rows)
+static int quantise(float radiance, double scale, bool linear, int most)
 {
+    return (int)(encode(radiance, scale, linear) * most + .5);
+}
+
+/* The least float ≥ 0 that becomes `sample` or more, by halving the floats' bit patterns, which are
+ * in their order; infinite when none does. */
+static float least_of(int sample, double scale, bool linear)
+{
+    uint32_t below = 0, bits;
+    float least = FLT_MAX, middle;
+    if (quantise(least, scale, linear, 255) < sample)
+        return INFINITY;
+    memcpy(&bits, &least, sizeof bits);
+    while (bits - below > 1) {
+        uint32_t half = below + (bits - below) / 2;
+        memcpy(&middle, &half, sizeof middle);
+        if (quantise(middle, scale, linear, 255) < sample)
+            below = half;
+        else
+            bits = half;
+    }
+    memcpy(&least, &bits, sizeof least);
+    return least;
+}
+
+void turner_packer_create(struct turner_packer *packer, const struct turner_format *format,
+                          const struct turner_image *image,
+                          const struct turner_image_encoding *encoding)
+{
+    *packer = (struct turner_packer){format, image, exp2(encoding->exposure), encoding->linear, {0}};
+    for (int i = 1; i < 256 && format->sample == TURNER_SAMPLE_U8; i++)
+        packer->least[i] = least_of(i, packer->scale, packer->linear);
+}
+
+/* The same as quantise to 255, in a tenth of the time: eight comparisons instead of a power. */
+static uint8_t find_sample(const float least[256], float v)
+{
+    int sample = 0;
+    for (int step = 128; step > 0; step /= 2)
+        sample += v >= least[sample + step] ? step : 0;
+    return v <= FLT_MAX ? (uint8_t)sample : 0; /* infinite and NaN: as encode does */
+}
+
+void turner_packer_rows(void *samples, const struct turner_packer *packer, int row, int rows)
+{
+    const struct turner_image *image = packer->image;
     const float *rgba = image->rgba + (size_t)row * (size_t)image->width * 4;
     size_t pixels = (size_t)image->width * (size_t)rows;
-    double scale = exp2(encoding->exposure);
     for (size_t i = 0; i < pixels * 3; i++) {
         float v = rgba[i / 3 * 4 + i % 3];
-        switch (format->sample) {
+        switch (packer->format->sample) {
         case TURNER_SAMPLE_U8:
-            ((uint8_t *)samples)[i] = (uint8_t)(encode(v, scale, encoding->linear) * 255 + .5);
+            ((uint8_t *)samples)[i] = find_sample(packer->least, v);
             break;
         case TURNER_SAMPLE_U16:
-            ((uint16_t *)samples)[i] = (uint16_t)(encode(v, scale, encoding->linear) * 65535 + .5);
+            ((uint16_t *)samples)[i] =
+                (uint16_t)quantise(v, packer->scale, packer->linear, 65535);
             break;
         case TURNER_SAMPLE_FLOAT:
-            ((float *)samples)[i] = isfinite(v) || format->nonfinite ? v : 0;
+            ((float *)samples)[i] = isfinite(v) || packer->format->nonfinite ? v : 0;
             break;
         }
     }

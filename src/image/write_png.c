@@ -61,7 +61,8 @@ static void describe(png_structp png, png_infop info, const struct turner_format
 /* What libpng jumps back to must not have changed since: everything is made by the caller. */
 static bool write_all(png_structp png, png_infop info, const struct turner_format *format,
                       const struct turner_image *image,
-                      const struct turner_image_encoding *encoding, uint8_t *row)
+                      const struct turner_image_encoding *encoding,
+                      const struct turner_packer *packer, uint8_t *row)
 {
     if (setjmp(png_jmpbuf(png)))
         return false;
@@ -70,7 +71,7 @@ static bool write_all(png_structp png, png_infop info, const struct turner_forma
     if (format->sample == TURNER_SAMPLE_U16)
         png_set_swap(png); /* the file's order is big-endian */
     for (int y = 0; y < image->height; y++) {
-        turner_format_pack(row, format, image, encoding, y, 1);
+        turner_packer_rows(row, packer, y, 1);
         png_write_row(png, row);
     }
     png_write_end(png, info);
@@ -90,7 +91,9 @@ enum turner_result turner_encode_png(struct turner_atomic *file, const struct tu
         png_set_write_fn(png, &output, append, stay);
         png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
         uint8_t *row = turner_calloc((size_t)image->width, turner_format_pixel(format));
-        written = write_all(png, info, format, image, encoding, row);
+        struct turner_packer packer;
+        turner_packer_create(&packer, format, image, encoding);
+        written = write_all(png, info, format, image, encoding, &packer, row);
         free(row);
     }
     png_destroy_write_struct(&png, &info);

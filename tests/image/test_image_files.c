@@ -137,6 +137,35 @@ static void exposure_curve_and_clamping(void **state)
     turner_image_destroy(&image);
 }
 
+/* Around each float where an 8-bit sample changes, the sample is the one that the formula gives. */
+static void every_step_is_where_the_curve_has_it(void **state)
+{
+    (void)state;
+    static const struct turner_image_encoding encodings[] = {
+        {0}, {.linear = true}, {.exposure = 2.5}, {.exposure = -7.25}, {.exposure = 900}};
+    struct turner_image image;
+    assert_int_equal(turner_image_create(&image, 256, 7), TURNER_OK);
+    for (size_t e = 0; e < sizeof encodings / sizeof *encodings; e++) {
+        double scale = exp2(encodings[e].exposure);
+        for (int i = 0; i < 256 * 7; i++) {
+            double step = (i % 256 - 0.5) / 255;
+            float v = (float)((encodings[e].linear ? step : turner_srgb_to_linear(step)) / scale);
+            for (int k = i / 256; k != 3; k += k < 3 ? 1 : -1) /* 3 floats below to 3 above */
+                v = nextafterf(v, k < 3 ? -INFINITY : INFINITY);
+            image.rgba[i * 4] = v;
+        }
+        struct turner_image back = through(&image, "a.png", &encodings[e], false);
+        for (int i = 0; i < 256 * 7; i++) {
+            double v = (double)image.rgba[i * 4] * scale;
+            v = v < 0 ? 0 : v > 1 ? 1 : v;
+            v = encodings[e].linear ? v : turner_linear_to_srgb(v);
+            assert_int_equal(lrintf(back.rgba[i * 4] * 255), (int)(v * 255 + .5));
+        }
+        turner_image_destroy(&back);
+    }
+    turner_image_destroy(&image);
+}
+
 static bool contains(const char *bytes, size_t size, const char *text)
 {
     size_t length = strlen(text);
@@ -267,6 +296,7 @@ int main(void)
         cmocka_unit_test(integers_come_back_to_half_a_step),
         cmocka_unit_test(shared_exponent_keeps_eight_bits),
         cmocka_unit_test(exposure_curve_and_clamping),
+        cmocka_unit_test(every_step_is_where_the_curve_has_it),
         cmocka_unit_test(texts_are_in_the_file_and_the_date_is_not),
         cmocka_unit_test(same_picture_same_bytes),
         cmocka_unit_test(one_pixel),
