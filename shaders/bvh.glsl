@@ -1,6 +1,6 @@
 // Our own bounding volume hierarchy (src/bvh), walked by each lane for itself. A node is loaded as
 // eight 64-bit words, which lavapipe turns into real gathers.
-// A packet kernel would be a second traverse() beside this one.
+#include "boxes.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer node_words
 {
@@ -9,48 +9,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer nod
 
 // Set on a stack entry that is an instance of the top level, to be entered.
 const uint SENTINEL = 0xffffffffu; // below it the rest of the top level waits
-
-// Boxes are met in floats, whatever the kernel computes in.
-struct boxes_ray_t {
-    vec3 above, below; // the origin, or two that it lies between where it is no float
-    vec3 inverse; // of the direction, its components kept away from 0 so that no 0·∞ arises
-};
-
-boxes_ray_t boxes_ray_of(real3 origin, real3 direction)
-{
-    const float tiny = 1e-20;
-    vec3 o = vec3(origin), d = vec3(direction);
-    d = mix(d, vec3(tiny), lessThan(abs(d), vec3(tiny)));
-#ifdef TURNER_F64
-    float pad = 2.4e-7 * largest(abs(o)); // of the origin's rounding, and the direction's
-    return boxes_ray_t(o + pad, o - pad, 1.0 / d);
-#else
-    return boxes_ray_t(o, o, 1.0 / d);
-#endif
-}
-
-// The bits of a float that is not below t.
-int bits_of(real t)
-{
-#ifdef TURNER_F64
-    return floatBitsToInt(float(t) * 1.0000002);
-#else
-    return floatBitsToInt(t);
-#endif
-}
-
-// Entry of the ray into a box as the bits of a float ≥ 0, or −1. Floats are compared as integers:
-// right wherever the result matters, since all that is below 0 becomes 0 or a miss, and cheaper.
-// The far side is padded by 1 + 2γ₃ (Ize, "Robust BVH ray traversal", JCGT 2, 2013).
-int enter_box(boxes_ray_t ray, vec3 lo, vec3 hi, int t_max)
-{
-    vec3 t_lo = (lo - ray.above) * ray.inverse, t_hi = (hi - ray.below) * ray.inverse;
-    ivec3 a = floatBitsToInt(t_lo), b = floatBitsToInt(t_hi);
-    ivec3 near = min(a, b), far = max(a, b);
-    int enter = max(max(near.x, near.y), max(near.z, 0));
-    float leave = intBitsToFloat(min(min(far.x, far.y), far.z)) * 1.0000004;
-    return enter <= floatBitsToInt(leave) && enter <= t_max ? enter : -1;
-}
 
 void traverse(inout search_t search, ray_t ray)
 {
@@ -89,8 +47,9 @@ void traverse(inout search_t search, ray_t ray)
                 continue; // missed, or no child there: node 0 is nobody's child
             if (items != 0u && !top) {
                 for (uint i = 0; i < items && !search.blocked; i++)
-                    intersect_primitive(search, first + i, instance, override_material, origin,
-                                        direction, shear);
+                    intersect_primitive(search, primitive_array(scene.primitives).at[first + i],
+                                        first + i, instance, override_material, origin, direction,
+                                        shear);
             } else {
                 // an instance waits on the stack like a node, marked by its top bit
                 uint entry = items != 0u ? first | 0x80000000u : first;

@@ -8,6 +8,10 @@
 #ifdef TURNER_RAY_QUERY
 #extension GL_EXT_ray_query : require
 #endif
+#ifdef TURNER_PACKET
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#endif
 
 #include "scene.glsl"
 #include "whitted.glsl"
@@ -21,7 +25,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer feature_arra
 };
 
 // As whitted() does it, a surface with the same medium on both sides is none.
-turner_gpu_feature feature_of(ray_t camera)
+turner_gpu_feature feature_of(ray_t camera, bool busy)
 {
     ray_t ray = camera;
     turner_gpu_feature feature;
@@ -30,23 +34,26 @@ turner_gpu_feature feature_of(ray_t camera)
     feature.id = TURNER_NO_INDEX;
     feature.instance = 0u;
     uint64_t media = scene.inside;
-    for (uint crossings = 0u; crossings <= scene.max_crossings; crossings++) {
+    for (uint crossings = 0u; crossings <= scene.max_crossings && goes_on(busy); crossings++) {
+        if (!busy)
+            ray.t_max = -1.0;
         search_t search = trace(ray, false);
-        if (!search.found)
-            break;
-        meeting_t met = meet(ray, search.hit, media);
-        if (met.crossing.boundary) {
-            feature.normal = vec3(shading_of(met, -ray.direction, vec3(1.0)).N);
-            feature.albedo = met.material.k_d;
-            feature.position = vec3(met.surface.point);
-            // t is known less well than the point that was put back onto its surface
-            feature.depth = float(distance(met.surface.point, camera.origin));
-            feature.id = search.hit.id;
-            feature.instance = search.hit.instance;
-            break;
+        busy = search.found;
+        if (search.found) {
+            meeting_t met = meet(ray, search.hit, media);
+            if (met.crossing.boundary) {
+                feature.normal = vec3(shading_of(met, -ray.direction, vec3(1.0)).N);
+                feature.albedo = met.material.k_d;
+                feature.position = vec3(met.surface.point);
+                // t is known less well than the point that was put back onto its surface
+                feature.depth = float(distance(met.surface.point, camera.origin));
+                feature.id = search.hit.id;
+                feature.instance = search.hit.instance;
+                busy = false;
+            }
+            ray = spawn_ray(met.surface, ray.direction, INFINITY);
+            media = met.crossing.after;
         }
-        ray = spawn_ray(met.surface, ray.direction, INFINITY);
-        media = met.crossing.after;
     }
     return feature;
 }
@@ -55,9 +62,9 @@ void main()
 {
     scene = scene_block(dispatch.scene).the;
     uvec2 pixel = gl_GlobalInvocationID.xy;
-    if (pixel.x >= dispatch.tile_width || pixel.y >= dispatch.tile_height)
-        return;
+    bool inside = pixel.x < dispatch.tile_width && pixel.y < dispatch.tile_height;
     vec2 center = vec2(uvec2(dispatch.tile_x, dispatch.tile_y) + pixel) + 0.5;
-    feature_array(dispatch.pixels).at[pixel.y * dispatch.tile_width + pixel.x] =
-        feature_of(camera_ray(center));
+    turner_gpu_feature feature = feature_of(camera_ray(center), inside);
+    if (inside)
+        feature_array(dispatch.pixels).at[pixel.y * dispatch.tile_width + pixel.x] = feature;
 }

@@ -9,6 +9,10 @@
 #ifdef TURNER_RAY_QUERY
 #extension GL_EXT_ray_query : require
 #endif
+#ifdef TURNER_PACKET
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#endif
 
 #include "scene.glsl"
 #include "whitted.glsl"
@@ -24,39 +28,43 @@ void main()
 {
     scene = scene_block(dispatch.scene).the;
     uint index = gl_GlobalInvocationID.x;
-    if (index >= dispatch.tile_width)
-        return;
+    bool busy = index < dispatch.tile_width;
     probe_array probes = probe_array(dispatch.pixels);
-    turner_gpu_probe probe = probes.at[index];
+    turner_gpu_probe probe = probes.at[busy ? index : 0u];
     ray_t ray = ray_t(real3(probe.origin), real3(probe.direction), INFINITY, 0.0);
 #ifdef TURNER_PROBE_RADIANCE
     turner_gpu_counters counts;
     for (uint kind = 0u; kind < TURNER_COUNTS; kind++)
         counts.low[kind] = 0u;
     counts.largest_depth = 0u;
-    vec4 radiance = whitted(ray, counts);
+    vec4 radiance = whitted(ray, busy, counts);
     probe.radiance = radiance.rgb;
     probe.pruned = radiance.a;
 #else
     probe.t[0] = probe.t[1] = INFINITY;
-    for (uint turn = 0u; turn < 2u; turn++) {
+    bool tracing = busy;
+    for (uint turn = 0u; turn < 2u && goes_on(tracing); turn++) {
+        if (!tracing)
+            ray.t_max = -1.0;
         search_t search = trace(ray, false);
-        if (!search.found)
-            break;
+        tracing = tracing && search.found;
+        if (tracing) {
 #ifdef TURNER_F64 // float(t) and the rest: Mesa 25 takes the difference for 0
-        real head = packDouble2x32(uvec2(0u, unpackDouble2x32(search.hit.t).y));
-        probe.t[turn] = float(head);
-        probe.t_rest[turn] = float(search.hit.t - head);
+            real head = packDouble2x32(uvec2(0u, unpackDouble2x32(search.hit.t).y));
+            probe.t[turn] = float(head);
+            probe.t_rest[turn] = float(search.hit.t - head);
 #else
-        probe.t[turn] = search.hit.t;
-        probe.t_rest[turn] = 0.0;
+            probe.t[turn] = search.hit.t;
+            probe.t_rest[turn] = 0.0;
 #endif
-        probe.id[turn] = search.hit.id;
-        probe.instance[turn] = search.hit.instance;
-        if (probe.leaving == vec3(0.0))
-            break;
-        ray = spawn_ray(surface_of(ray, search.hit), real3(probe.leaving), INFINITY);
+            probe.id[turn] = search.hit.id;
+            probe.instance[turn] = search.hit.instance;
+            tracing = probe.leaving != vec3(0.0);
+            if (tracing)
+                ray = spawn_ray(surface_of(ray, search.hit), real3(probe.leaving), INFINITY);
+        }
     }
 #endif
-    probes.at[index] = probe;
+    if (busy)
+        probes.at[index] = probe;
 }

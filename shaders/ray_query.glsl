@@ -38,8 +38,8 @@ void traverse(inout search_t search, ray_t ray)
                 }
             }
             float before = search.hit.t;
-            intersect_primitive(search, index, instance, override_material, origin, direction,
-                                shear);
+            intersect_primitive(search, primitive_array(scene.primitives).at[index], index,
+                                instance, override_material, origin, direction, shear);
             if (search.blocked)
                 return;
             if (walk == 0u && search.hit.t < before) {

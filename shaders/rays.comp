@@ -9,6 +9,10 @@
 #ifdef TURNER_RAY_QUERY
 #extension GL_EXT_ray_query : require
 #endif
+#ifdef TURNER_PACKET
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#endif
 
 #include "scene.glsl"
 #include "whitted.glsl"

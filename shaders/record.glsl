@@ -1,4 +1,4 @@
-// What the kernel does, noted down by its one lane as a stream of events, which
+// What the kernel does, noted down by the one lane that has a ray as a stream of events, which
 // src/render/explain.c turns into a tree of rays. Only in kernels compiled with TURNER_RECORD;
 // nothing here changes what is traced. Where the stream is full, events are counted only.
 
@@ -11,6 +11,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) buffer record_array
     turner_gpu_record at[];
 };
 
+bool recording;           // this lane has a ray
 uint recorded_place;      // of the event that is being filled
 uint recorded_surface;    // of the last surface
 real recorded_way;        // of the ray so far
@@ -37,6 +38,10 @@ bool record_fits(uint place)
 
 void record_event(uint what)
 {
+    if (!recording) {
+        recorded_place = TURNER_NO_INDEX;
+        return;
+    }
     record_header header = record_header(dispatch.pixels + TURNER_RECORDS_OFFSET);
     recorded_place = header.the.count++;
     if (!record_fits(recorded_place))
@@ -87,8 +92,9 @@ void record_hit(hit_t hit)
 }
 
 // A turn of the loop begins: with a new ray, or further along one.
-void record_turn(path_t path, bool shadow, uint crossings)
+void record_turn(bool busy, path_t path, bool shadow, uint crossings)
 {
+    recording = busy;
     if (crossings > 0u)
         return;
     recorded_way = 0.0;

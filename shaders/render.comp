@@ -9,6 +9,10 @@
 #ifdef TURNER_RAY_QUERY
 #extension GL_EXT_ray_query : require
 #endif
+#ifdef TURNER_PACKET
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#endif
 
 #include "scene.glsl"
 #include "whitted.glsl"
@@ -65,6 +69,7 @@ void add_counts(turner_gpu_counters counts)
 // The sample of this lane, or false where there is none: its place in the picture and in `pixels`.
 bool sample_of_lane(out vec2 position, out uint index)
 {
+    position = vec2(0.0);
     if (dispatch.positions != 0ul) {
         index = gl_WorkGroupID.x * (TURNER_WORKGROUP * TURNER_WORKGROUP) + gl_LocalInvocationIndex;
         if (index >= dispatch.count)
@@ -104,8 +109,9 @@ void main()
 
     vec2 position;
     uint index;
-    if (sample_of_lane(position, index)) {
-        vec4 result = whitted(camera_ray(position), counts);
+    bool sampled = sample_of_lane(position, index);
+    vec4 result = whitted(camera_ray(position), sampled, counts);
+    if (sampled) {
         pixel_array pixels = pixel_array(dispatch.pixels);
         pixels.at[index] = dispatch.first != 0u ? result : pixels.at[index] + result;
         if (PIXEL_COUNTS)

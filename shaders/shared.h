@@ -9,11 +9,13 @@
 #define TURNER_VEC2(name) vec2 name
 #define TURNER_VEC3(name) vec3 name
 #define TURNER_UINT64 uint64_t
+#define TURNER_FACE turner_gpu_face
 #else /* C, after <stdint.h> */
 #define TURNER_STRUCT(name) struct name
 #define TURNER_VEC2(name) float name[2]
 #define TURNER_VEC3(name) float name[3]
 #define TURNER_UINT64 uint64_t
+#define TURNER_FACE struct turner_gpu_face
 #define uint uint32_t
 #endif
 
@@ -21,7 +23,7 @@
 #define TURNER_BINDING_TLAS 0       /* ray_query only */
 #define TURNER_CONSTANT_NEEDS 0     /* TURNER_NEEDS_… of the scene */
 #define TURNER_CONSTANT_STACK 1     /* pending rays kept at once: max_depth where rays branch */
-#define TURNER_CONSTANT_BVH_STACK 2 /* nodes kept at once: from the depth of the built tree */
+#define TURNER_CONSTANT_BVH_STACK 2 /* nodes kept at once: from the built tree */
 #define TURNER_CONSTANT_METHODS 3   /* TURNER_METHOD_… chosen; 0 is the default of each */
 #define TURNER_CONSTANT_PIXEL_COUNTS 4 /* 1: rays are counted for each pixel, too */
 #define TURNER_WORKGROUP 8          /* a workgroup is 8×8 pixels in Morton order */
@@ -119,6 +121,28 @@ TURNER_STRUCT(turner_gpu_node)
     float hi1[3];
     uint child[2];
     uint count[2];
+};
+
+/* Four children a node, 64 bytes, for packets (packet.glsl). The boxes lie on a grid of the node's
+ * own, along each axis at origin + i·spacing for i from 0 to 255; the spacing is a power of two, so
+ * that i·spacing is exact and the sum rounded once. face[2a] has the lower side of all boxes along
+ * axis a, byte i of child i, and the grid's origin; face[2a + 1] the upper side and the spacing.
+ * A child is 0 for none, the index of a node, or a leaf: TURNER_WIDE_LEAF, how many primitives less
+ * one, and the first (in the top level: an instance). No child is node 0. */
+#define TURNER_WIDE_LEAF 0x80000000u
+#define TURNER_WIDE_COUNT_SHIFT 28
+#define TURNER_WIDE_FIRST 0x0fffffffu
+
+TURNER_STRUCT(turner_gpu_face)
+{
+    uint planes;
+    float grid;
+};
+
+TURNER_STRUCT(turner_gpu_wide_node)
+{
+    TURNER_FACE face[6];
+    uint child[4];
 };
 
 /* An instance of a group; instance 0 is the world's own group, with the identity. */

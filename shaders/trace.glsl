@@ -1,4 +1,4 @@
-// One ray against the whole scene. There is a single call of trace() in the kernel: the traversal
+// One ray against the whole scene; with t_max −1 it meets nothing. There is a single call of trace() in the kernel: the traversal
 // is inlined where it is called, and the ray-query kind keeps a stack for each place.
 //
 // For shadow rays the walk may end at the first opaque surface; of transmissive ones the nearest
@@ -23,7 +23,7 @@ void consider(inout search_t search, real t, uint id, uint primitive, uint insta
     bool nearer = t < search.hit.t;
     bool tied = t == search.hit.t && search.found &&
                 comes_before(instance, id, search.hit.instance, search.hit.id);
-    if (!(nearer || tied))
+    if (!(nearer || tied) || search.blocked)
         return;
     search.hit = hit_t(t, id, primitive, instance, coordinates);
     search.found = true;
@@ -32,10 +32,9 @@ void consider(inout search_t search, real t, uint id, uint primitive, uint insta
 }
 
 // Intersects one primitive of a group; `origin` and `direction` are in the group's coordinates.
-void intersect_primitive(inout search_t search, uint index, uint instance, uint override_material,
-                         real3 origin, real3 direction, shear_t shear)
+void intersect_primitive(inout search_t search, turner_gpu_primitive p, uint index, uint instance,
+                         uint override_material, real3 origin, real3 direction, shear_t shear)
 {
-    turner_gpu_primitive p = primitive_array(scene.primitives).at[index];
     uint kind = p.id >> TURNER_KIND_SHIFT;
     shape_t s = shape_of(p, index);
     real t = INFINITY;
@@ -52,8 +51,30 @@ void intersect_primitive(inout search_t search, uint index, uint instance, uint 
     consider(search, t, p.id, index, instance, coordinates, material);
 }
 
+#ifdef TURNER_PACKET
+int least_of_lanes(int v)
+{
+    v = min(v, subgroupShuffleXor(v, 1u));
+    v = min(v, subgroupShuffleXor(v, 2u));
+    return min(v, subgroupShuffleXor(v, 4u));
+}
+#endif
+
+// Whether a lane that has work left, or has none, goes through the loop that calls trace() again:
+// in a packet all lanes do while one has.
+bool goes_on(bool work)
+{
+#ifdef TURNER_PACKET
+    return least_of_lanes(work ? 0 : 1) == 0;
+#else
+    return work;
+#endif
+}
+
 #ifdef TURNER_RAY_QUERY
 #include "ray_query.glsl"
+#elif defined(TURNER_PACKET)
+#include "packet.glsl"
 #else
 #include "bvh.glsl"
 #endif
@@ -78,7 +99,9 @@ search_t trace(ray_t ray, bool shadow)
     search.blocked = false;
     if (NEEDS_ANY(TURNER_NEEDS_PLANES))
         intersect_planes(search, ray);
+#ifndef TURNER_PACKET // its lanes stay together
     if (!search.blocked)
+#endif
         traverse(search, ray);
     return search;
 }

@@ -183,7 +183,8 @@ bool next_light(inout shading_t shading, out ray_t ray, out vec3 light)
 }
 
 // Radiance along the camera ray, and the sum of the weights that were cut in the fourth component.
-vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
+// All lanes of a subgroup come here together, those without a ray with `busy` false.
+vec4 whitted(ray_t camera, bool busy, inout turner_gpu_counters counts)
 {
     sum_t radiance = sum_t(vec3(0.0), vec3(0.0));
     float pruned = 0.0;
@@ -198,14 +199,18 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
     bool shadow = false; // this turn's ray is a shadow ray
     path_t to_light;     // it; its weight is what arrives in the pixel from the light
     uint crossings = 0u;
-    counts.low[TURNER_COUNT_CAMERA]++;
+    bool unfinished = false;
+    if (busy)
+        counts.low[TURNER_COUNT_CAMERA]++;
 
-    for (uint turn = 0u; turn < scene.max_steps; turn++) {
+    for (uint turn = 0u; turn < scene.max_steps && goes_on(busy); turn++) {
         path_t current = path;
         if (shadow)
             current = to_light;
         ray_t ray = current.ray;
-        RECORD(record_turn(current, shadow, crossings));
+        if (!busy)
+            ray.t_max = -1.0;
+        RECORD(record_turn(busy, current, shadow, crossings));
         search_t search = trace(ray, shadow);
 
         meeting_t met;
@@ -218,22 +223,20 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
                                                   float(ray.start + search.hit.t));
         RECORD(record_search(search, ray.start + search.hit.t, met.crossing.before));
 
-        if (any && (shadow || !met.crossing.boundary)) {
-            // ---- straight on through it ----
-            if (++crossings > scene.max_crossings)
-                break;
+        bool straight = any && (shadow || !met.crossing.boundary);
+        if (straight) {
+            // ---- on through it, unless nothing is left of the light ----
+            crossings++;
             RECORD(record_crossing(search.hit, met, shadow));
             current.ray = spawn_ray(met.surface, ray.direction, ray.t_max - search.hit.t);
             current.media = met.crossing.after;
-            if (!shadow) {
+            if (shadow && met.crossing.boundary)
+                current.weight *= met.material.k_t;
+            straight = !shadow || current.weight != vec3(0.0);
+            if (shadow)
+                to_light = current;
+            else
                 path = current;
-                continue;
-            }
-            to_light = current;
-            if (met.crossing.boundary)
-                to_light.weight *= met.material.k_t;
-            if (to_light.weight != vec3(0.0))
-                continue;
         } else if (any) {
             // ---- emission, ambient, and what is sent on; the lights come below ----
             vec3 weight = current.weight;
@@ -275,28 +278,37 @@ vec4 whitted(ray_t camera, inout turner_gpu_counters counts)
                     has_next = true;
                 }
             }
-        } else if (!search.blocked) {
+        } else if (busy && !search.blocked) {
             RECORD(record_end(shadow, ray, current.weight));
             add(radiance, shadow ? current.weight : current.weight *
                                                              background(vec3(ray.direction)));
         }
 
-        crossings = 0u;
-        shadow = next_light(shading, to_light.ray, to_light.weight);
-        if (shadow) {
-            to_light.media = shading.media;
-            counts.low[TURNER_COUNT_SHADOW]++;
-        } else if (has_next) {
-            path = next;
-            has_next = false;
-        } else if (NEEDS_ANY(TURNER_NEEDS_BRANCHING) && height > 0u) {
-            path = stack[--height];
-        } else {
-            return vec4(radiance.value, pruned);
+        if (busy && !straight) {
+            crossings = 0u;
+            shadow = next_light(shading, to_light.ray, to_light.weight);
+            if (shadow) {
+                to_light.media = shading.media;
+                counts.low[TURNER_COUNT_SHADOW]++;
+            } else if (has_next) {
+                path = next;
+                has_next = false;
+            } else if (NEEDS_ANY(TURNER_NEEDS_BRANCHING) && height > 0u) {
+                path = stack[--height];
+            } else {
+                busy = false;
+            }
+            counts.largest_depth = max(counts.largest_depth, path.depth);
         }
-        counts.largest_depth = max(counts.largest_depth, path.depth);
+        if (crossings > scene.max_crossings) {
+            unfinished = true;
+            busy = false;
+            crossings = 0u;
+        }
     }
-    RECORD(record_event(TURNER_RECORD_UNFINISHED));
-    counts.low[TURNER_COUNT_UNFINISHED]++;
+    if (busy || unfinished) {
+        RECORD(record_event(TURNER_RECORD_UNFINISHED));
+        counts.low[TURNER_COUNT_UNFINISHED]++;
+    }
     return vec4(radiance.value, pruned);
 }

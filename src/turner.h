@@ -80,7 +80,13 @@ struct turner_layers {
 void turner_layers_destroy(struct turner_layers *layers); /* keeps `wanted` */
 
 /* ---- Rendering ---- */
-enum turner_traversal { TURNER_TRAVERSAL_AUTO, TURNER_TRAVERSAL_BVH, TURNER_TRAVERSAL_RAY_QUERY };
+enum turner_traversal {
+    TURNER_TRAVERSAL_AUTO, /* the fastest on the device */
+    TURNER_TRAVERSAL_BVH,  /* the faster of BVH_LANE and BVH_PACKET on the device */
+    TURNER_TRAVERSAL_RAY_QUERY,
+    TURNER_TRAVERSAL_BVH_LANE,  /* each lane for itself */
+    TURNER_TRAVERSAL_BVH_PACKET /* the lanes of a subgroup together; needs subgroups of 8 */
+};
 
 /* Settings on top of the scene's own; zeroed is a good default. */
 struct turner_render_options {

@@ -130,7 +130,7 @@ static enum turner_result warm_up(struct station *station, struct bench *bench)
     point->seconds_upload = statistics.seconds_upload;
     point->kernel_words = (double)statistics.kernel_words;
     snprintf(point->traversal, sizeof point->traversal, "%s",
-             station->renderer.ray_query ? "ray_query" : "bvh");
+             turner_traversal_name(kernel->kind));
     TURNER_TRY_DONE(turner_image_create(&picture, point->settings.width, point->settings.height));
     TURNER_TRY_DONE(draw(&point->seconds_first, &picture, station, bench));
     result = turner_chart_picture_write(point, bench->chart, &picture);

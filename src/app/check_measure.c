@@ -124,7 +124,7 @@ static enum turner_result measure_scene(struct session *session, struct row *row
     const struct turner_sized_kernel *kernel;
     TURNER_TRY(turner_kernel_set_get(&kernel, &session->kernels, &session->gpu.info, scene,
                                      how->traversal));
-    row->traversal = turner_kernel_traversal(&kernel->kernel);
+    row->traversal = turner_traversal_name(kernel->kernel.kind);
     row->bytes[EVERYTHING] = kernel->everything;
     TURNER_TRY(turner_kernel_size(&row->bytes[NEEDED], &kernel->kernel, &needs));
 

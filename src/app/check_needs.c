@@ -37,11 +37,6 @@ void turner_kernel_set_destroy(struct turner_kernel_set *set)
         turner_kernel_destroy(&set->at[kind].kernel);
 }
 
-const char *turner_kernel_traversal(const struct turner_kernel *kernel)
-{
-    return kernel->kind & TURNER_RAY_QUERY ? "ray_query" : "bvh";
-}
-
 static void depth_text(char *text, size_t size, const struct turner_scene *scene,
                        const struct turner_depth *depth)
 {
@@ -155,7 +150,7 @@ enum turner_result turner_needs_print(const struct turner_scene *scene, const ch
     print_left_out(&needs);
     char line[160];
     snprintf(line, sizeof line, "%zu bytes of SPIR-V (%s), %.0f %% of the %zu with everything",
-             bytes, turner_kernel_traversal(&kernel->kernel),
+             bytes, turner_traversal_name(kernel->kernel.kind),
              100.0 * (double)bytes / (double)kernel->everything, kernel->everything);
     print_line("kernel", line);
     return TURNER_OK;
@@ -233,7 +228,7 @@ enum turner_result turner_needs_list(cJSON *list, const struct turner_scene *sce
     list_depth(object, scene);
     list_precision(object, scene);
     cJSON *size = cJSON_AddObjectToObject(object, "kernel");
-    cJSON_AddStringToObject(size, "traversal", turner_kernel_traversal(&kernel->kernel));
+    cJSON_AddStringToObject(size, "traversal", turner_traversal_name(kernel->kernel.kind));
     cJSON_AddNumberToObject(size, "spirv_bytes", (double)bytes);
     cJSON_AddNumberToObject(size, "spirv_bytes_everything", (double)kernel->everything);
     cJSON_AddItemToArray(list, object);

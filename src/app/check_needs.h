@@ -27,9 +27,6 @@ enum turner_result turner_kernel_set_get(const struct turner_sized_kernel **kern
                                          enum turner_traversal wanted);
 void turner_kernel_set_destroy(struct turner_kernel_set *set);
 
-/* "bvh" or "ray_query" */
-const char *turner_kernel_traversal(const struct turner_kernel *kernel);
-
 /* To stdout, for people. */
 enum turner_result turner_needs_print(const struct turner_scene *scene, const char *path,
                                       const struct turner_sized_kernel *kernel);

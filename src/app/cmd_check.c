@@ -26,7 +26,7 @@ static void print_help(void)
          "      --runs N        of each kind (default 5, at least 5); the median counts\n"
          "      --size WxH, --spp N        for --measure, in place of the scene's\n"
          "  -d, --device D      for --measure: index or part of the name (turner devices)\n"
-         "      --traversal KIND           auto | bvh | ray_query\n"
+         "      --traversal KIND           auto | bvh | bvh_lane | bvh_packet | ray_query\n"
          "  -q, --quiet         say only what is wrong\n"
          "  -h, --help          this text\n\n"
          "Examples: turner check --needs scenes/prism.json\n"
@@ -67,7 +67,8 @@ static enum turner_result check_scene(const struct arguments *a, const char *pat
 {
     /* without a device: what a CPU would do that can do everything */
     static const struct turner_gpu_info able = {
-        .name = "any", .software = true, .ray_query = true, .float64 = true};
+        .name = "any", .software = true, .ray_query = true, .packets = true,
+        .float64 = true};
     const struct turner_sized_kernel *kernel = NULL;
     struct turner_scene *scene;
     enum turner_result result = TURNER_OK;
@@ -152,7 +153,8 @@ static const struct option long_options[] = {
 
 static enum turner_result take(struct arguments *a, int option, char **argv)
 {
-    static const char *const traversals[] = {"auto", "bvh", "ray_query", NULL};
+    static const char *const traversals[] = {"auto", "bvh", "ray_query", "bvh_lane",
+                                             "bvh_packet", NULL};
     struct turner_measure *m = &a->measure;
     int choice;
     switch (option) {

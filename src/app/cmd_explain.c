@@ -22,7 +22,7 @@ static void print_help(void)
          "  -m, --method NAME=VALUE  a way to compute; turner params lists them (may be repeated)\n"
          "  -d, --device D         index or part of the name (turner devices), or reference: that\n"
          "                         tree alone, without Vulkan\n"
-         "      --traversal KIND   auto | bvh | ray_query\n"
+         "      --traversal KIND   auto | bvh | bvh_lane | bvh_packet | ray_query\n"
          "      --shader-dir DIR   take shaders from here first (may be repeated)\n"
          "      --bits N           rays that agree in fewer bits part; default 10\n"
          "      --json             the same as JSON (docs/explain.md)\n"
@@ -122,7 +122,7 @@ static enum turner_result explain(const struct arguments *a, const struct turner
                                               explanation.sample_x, explanation.sample_y));
         explanation.device = recorder.gpu.info.name;
         explanation.driver = recorder.gpu.info.driver;
-        explanation.traversal = recorder.kind & TURNER_RAY_QUERY ? "ray_query" : "bvh";
+        explanation.traversal = turner_traversal_name(recorder.kind);
         explanation.precision = recorder.kind & TURNER_F64 ? "f64" : "f32";
     }
     turner_rays_compare(&explanation.comparison, alone ? NULL : &device, &reference, a->bits);

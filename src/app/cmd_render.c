@@ -38,7 +38,7 @@ static void print_help(void)
          "      --spd-rays, --spd-grid   count rays as the Standard Procedural Databases do\n\n"
          "  -d, --device D         index or part of the name (turner devices), or reference:\n"
          "                         extended precision on the CPU, slow, the truth to compare with\n"
-         "      --traversal KIND   auto | bvh | ray_query\n"
+         "      --traversal KIND   auto | bvh | bvh_lane | bvh_packet | ray_query\n"
          "      --shader-dir DIR   take shaders from here first (may be repeated)\n"
          "      --tile N           pixels traced at once, N×N; default adapts to the time it takes\n"
          "      --threads N        of the reference\n"

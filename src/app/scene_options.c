@@ -34,7 +34,8 @@ static enum turner_result take_shader_dir(struct turner_scene_options *o, const 
 
 static enum turner_result take_traversal(struct turner_scene_options *o, const char *text)
 {
-    static const char *const traversals[] = {"auto", "bvh", "ray_query", NULL};
+    static const char *const traversals[] = {"auto", "bvh", "ray_query", "bvh_lane",
+                                             "bvh_packet", NULL};
     int choice;
     TURNER_TRY(turner_option_choice(&choice, "--traversal", text, traversals));
     o->render.traversal = (enum turner_traversal)choice;

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "bvh/flatten.h"
+#include "bvh/wide.h"
 
 /* What is known before anything is taken. */
 struct sizes {
@@ -63,8 +64,10 @@ static enum turner_result check_sizes(const struct sizes *sizes, enum turner_ord
                      sizes->corners * sizeof *flat->corners +
                      sizes->vertices * (sizeof *flat->normals + sizeof *flat->uvs) +
                      items * sizeof(struct turner_bvh_item);
-    if (order == TURNER_ORDER_SAH)
+    if (order != TURNER_ORDER_MEDIAN)
         bytes += sizes->nodes * sizeof *flat->nodes + spare * sizeof(struct turner_bvh_item);
+    if (order == TURNER_ORDER_WIDE) /* no more nodes of four than of two children */
+        bytes += sizes->nodes * sizeof *flat->wide;
     uint64_t available = turner_memory_available();
     if (bytes > available)
         return turner_fail(TURNER_DEVICE,
@@ -74,6 +77,13 @@ static enum turner_result check_sizes(const struct sizes *sizes, enum turner_ord
                            (unsigned long long)sizes->primitives,
                            (unsigned long long)sizes->instances, (double)bytes / 1048576,
                            (double)available / 1048576);
+    if (order == TURNER_ORDER_WIDE &&
+        (sizes->primitives > TURNER_WIDE_FIRST || sizes->instances > TURNER_WIDE_FIRST))
+        return turner_fail(TURNER_BAD_INPUT,
+                           "the scene has %llu primitives and %llu instances, and %u of each are "
+                           "the most; take a smaller scene, or --traversal bvh_lane",
+                           (unsigned long long)sizes->primitives,
+                           (unsigned long long)sizes->instances - 1, TURNER_WIDE_FIRST);
     if (sizes->vertices > UINT32_MAX)
         return turner_fail(TURNER_BAD_INPUT,
                            "the scene's meshes have %llu vertices with normals or texture "
@@ -101,7 +111,7 @@ static enum turner_result flatten_groups(struct turner_flat *flat, const struct 
             free(source.meshes);
             return result;
         }
-        if (order == TURNER_ORDER_SAH) {
+        if (order != TURNER_ORDER_MEDIAN) {
             out->root = (uint32_t)flat->node_count;
             static_assert(sizeof *flat->primitives >= sizeof *items, "room for items");
             struct turner_bvh_item *spare = (void *)(flat->primitives + first);
@@ -148,6 +158,35 @@ static void build_top(struct turner_flat *flat, struct turner_bvh_item *items, u
         flat->max_visits += 1 + (uint64_t)group_nodes[flat->instance_groups[i]];
 }
 
+/* Puts four children into each node, and gives the binary tree back. */
+static void widen(struct turner_flat *flat, size_t group_count, uint32_t *group_nodes)
+{
+    size_t count = 0;
+    uint32_t waiting = 0;
+    flat->wide = turner_calloc(flat->node_count, sizeof *flat->wide);
+    for (size_t g = 0; g < group_count; g++) {
+        uint32_t root = flat->groups[g].root;
+        flat->groups[g].root = (uint32_t)count;
+        uint32_t entries = turner_bvh_widen(flat->wide, &count, flat->nodes, root);
+        waiting = entries > waiting ? entries : waiting;
+        group_nodes[g] = (uint32_t)count - flat->groups[g].root;
+    }
+    size_t first = count;
+    uint32_t entries = turner_bvh_widen(flat->wide, &count, flat->nodes, flat->root);
+    flat->root = (uint32_t)first;
+    flat->max_depth = 1 + (entries > waiting ? entries : waiting);
+    flat->max_visits = count - first;
+    for (size_t i = 0; i < flat->instance_count; i++) {
+        uint32_t group = flat->instance_groups[i];
+        flat->instances[i].root = flat->groups[group].root;
+        flat->max_visits += 1 + (uint64_t)group_nodes[group];
+    }
+    free(flat->nodes);
+    flat->nodes = NULL;
+    flat->node_count = count;
+    flat->wide = turner_realloc(flat->wide, count, sizeof *flat->wide);
+}
+
 enum turner_result turner_flat_create(struct turner_flat *flat, const struct turner_scene *scene,
                                       enum turner_order order)
 {
@@ -173,17 +212,19 @@ enum turner_result turner_flat_create(struct turner_flat *flat, const struct tur
     flat->corners = turner_calloc(sizes.corners, sizeof *flat->corners);
     flat->normals = turner_calloc(sizes.vertices, sizeof *flat->normals);
     flat->uvs = turner_calloc(sizes.vertices, sizeof *flat->uvs);
-    if (order == TURNER_ORDER_SAH)
+    if (order != TURNER_ORDER_MEDIAN)
         flat->nodes = turner_calloc(sizes.nodes, sizeof *flat->nodes);
 
     uint32_t used;
     TURNER_TRY_DONE(
         flatten_groups(flat, scene, order, patterned, items, group_levels, group_nodes));
     TURNER_TRY_DONE(turner_flat_instances(flat, scene, items, &used));
-    if (order == TURNER_ORDER_SAH) {
+    if (order != TURNER_ORDER_MEDIAN)
         build_top(flat, items, used, group_levels, group_nodes, scene->group_count);
+    if (order == TURNER_ORDER_SAH)
         flat->nodes = turner_realloc(flat->nodes, flat->node_count, sizeof *flat->nodes);
-    }
+    if (order == TURNER_ORDER_WIDE)
+        widen(flat, scene->group_count, group_nodes);
 done:
     free(patterned);
     free(items);
@@ -197,12 +238,14 @@ done:
 void turner_flat_release(struct turner_flat *flat)
 {
     free(flat->nodes);
+    free(flat->wide);
     free(flat->primitives);
     free(flat->instances);
     free(flat->corners);
     free(flat->normals);
     free(flat->uvs);
     flat->nodes = NULL;
+    flat->wide = NULL;
     flat->primitives = NULL;
     flat->instances = NULL;
     flat->corners = NULL;

@@ -10,13 +10,14 @@
 enum turner_order {
     TURNER_ORDER_SAH,   /* binned-SAH BVH2 over each group and over the instances; primitives lie
                            in leaf order, groups one after another */
+    TURNER_ORDER_WIDE,  /* the same with four children a node, for packets */
     TURNER_ORDER_MEDIAN /* no nodes; each group's triangles, then its spheres and cones, each in
                            median-split order: what lavapipe's builder makes good trees of */
 };
 
 /* The primitives of one group among turner_flat.primitives. */
 struct turner_flat_group {
-    uint32_t root;                      /* SAH: node; an empty group has an empty node */
+    uint32_t root;                      /* SAH, WIDE: node; an empty group has an empty node */
     uint32_t triangles, triangle_count; /* MEDIAN: the range of its triangles */
     uint32_t boxes, box_count;          /* MEDIAN: the range of its spheres and cones */
     float lo[3], hi[3];                 /* bounds, rounded outwards; lo > hi when empty */
@@ -26,7 +27,8 @@ struct turner_flat_group {
  * normals and uvs have vertex_count elements if any mesh has the one or the other (zeros where a
  * mesh lacks it). */
 struct turner_flat {
-    struct turner_gpu_node *nodes;
+    struct turner_gpu_node *nodes;     /* SAH */
+    struct turner_gpu_wide_node *wide; /* WIDE */
     struct turner_gpu_primitive *primitives;
     struct turner_gpu_instance *instances; /* [0] is the world */
     struct turner_gpu_corners *corners;
@@ -34,11 +36,13 @@ struct turner_flat {
     float (*uvs)[2];
     struct turner_flat_group *groups; /* scene->group_count */
     uint32_t *instance_groups;        /* instance_count: group of each instance */
-    size_t node_count, primitive_count, instance_count, corner_count, vertex_count;
+    size_t node_count; /* of nodes or wide */
+    size_t primitive_count, instance_count, corner_count, vertex_count;
     uint32_t root;       /* top level's root node */
     uint32_t max_depth;  /* SAH: entries a traversal stack needs that pushes one child a node: the
-                            levels of the top tree, 1 sentinel, the levels of the deepest group */
-    uint64_t max_visits; /* SAH: nodes and instances one ray can visit, at most */
+                            levels of the top tree, 1 sentinel, the levels of the deepest group;
+                            WIDE: entries of either level that wait at once, with that of the end */
+    uint64_t max_visits; /* SAH, WIDE: nodes and instances one ray can visit, at most */
 };
 
 /* Flattens a valid scene; the same scene gives the same bytes. TURNER_DEVICE when memory does not

@@ -163,6 +163,7 @@ static enum turner_result create_device(struct turner_gpu *gpu)
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
         .pNext = gpu->info.ray_query ? &acceleration : NULL,
         .maintenance4 = VK_TRUE, /* local size by specialisation constant */
+        .computeFullSubgroups = gpu->info.packets,
     };
     VkPhysicalDeviceVulkan12Features vulkan12 = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,

@@ -81,9 +81,11 @@ static enum turner_result create_pipeline(struct turner_program *program, struct
         .pCode = spirv->words,
     };
     VK_TRY(vkCreateShaderModule(gpu->device, &module, NULL, &program->module));
+    bool full = gpu->info.packets && program->local_size[0] % gpu->info.subgroup_size == 0;
     VkComputePipelineCreateInfo pipeline = {
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
         .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                  .flags = full ? VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT : 0,
                   .stage = VK_SHADER_STAGE_COMPUTE_BIT,
                   .module = program->module,
                   .pName = "main",

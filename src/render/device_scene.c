@@ -298,8 +298,10 @@ enum turner_result turner_device_scene_create(struct turner_device_scene *device
                                               const struct turner_needs *needs, bool ray_query)
 {
     memset(device, 0, sizeof *device);
-    TURNER_TRY(upload(device, gpu, TURNER_ARRAY_NODES, flat->nodes,
-                      flat->node_count * sizeof *flat->nodes));
+    TURNER_TRY(upload(device, gpu, TURNER_ARRAY_NODES,
+                      flat->wide ? (const void *)flat->wide : flat->nodes,
+                      flat->node_count *
+                          (flat->wide ? sizeof *flat->wide : sizeof *flat->nodes)));
     TURNER_TRY(upload(device, gpu, TURNER_ARRAY_PRIMITIVES, flat->primitives,
                       flat->primitive_count * sizeof *flat->primitives));
     TURNER_TRY(upload(device, gpu, TURNER_ARRAY_INSTANCES, flat->instances,

@@ -95,7 +95,7 @@ static enum turner_result draw_on_device(struct turner_image *image,
     TURNER_TRY_DONE(turner_kernel_create(&kernel, kind, options));
     statistics->seconds_compile = turner_seconds() - start;
     TURNER_TRY_DONE(turner_renderer_create(&renderer, &gpu, &kernel, scene, options, statistics));
-    statistics->traversal = kind & TURNER_RAY_QUERY ? "ray_query" : "bvh";
+    statistics->traversal = turner_traversal_name(kind);
     statistics->precision = methods->precision == TURNER_PRECISION_F64 ? "f64" : "f32";
     if (turner_layers_want(options->layers, TURNER_LAYERS_OF_CENTER))
         TURNER_TRY_DONE(turner_features_draw(options->layers, &renderer, &kernel, scene, options,

@@ -20,17 +20,31 @@ double turner_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-enum turner_result turner_choose_traversal(bool *ray_query, const struct turner_gpu_info *info,
+enum turner_result turner_choose_traversal(enum turner_traversal *chosen,
+                                           const struct turner_gpu_info *info,
                                            enum turner_traversal wanted)
 {
-    /* a CPU is faster at our own hierarchy (turner render --stats shows it), hardware at its own */
-    *ray_query = wanted == TURNER_TRAVERSAL_RAY_QUERY ||
-                 (wanted == TURNER_TRAVERSAL_AUTO && info->ray_query && !info->software);
-    if (*ray_query && !info->ray_query)
+    /* a CPU is faster at our own hierarchy (docs/performance.md), hardware at its own */
+    *chosen = wanted;
+    if (wanted == TURNER_TRAVERSAL_AUTO && info->ray_query && !info->software)
+        *chosen = TURNER_TRAVERSAL_RAY_QUERY;
+    else if (wanted == TURNER_TRAVERSAL_AUTO || wanted == TURNER_TRAVERSAL_BVH)
+        *chosen = info->packets ? TURNER_TRAVERSAL_BVH_PACKET : TURNER_TRAVERSAL_BVH_LANE;
+    if (*chosen == TURNER_TRAVERSAL_RAY_QUERY && !info->ray_query)
         return turner_fail(TURNER_DEVICE,
                            "device \"%s\" cannot trace with ray queries: it lacks %s; use "
                            "--traversal bvh, or auto", info->name, info->missing);
+    if (*chosen == TURNER_TRAVERSAL_BVH_PACKET && !info->packets)
+        return turner_fail(TURNER_DEVICE,
+                           "device \"%s\" cannot trace packets: its subgroups are not of 8 lanes "
+                           "that can hand each other numbers; use --traversal bvh, or auto",
+                           info->name);
     return TURNER_OK;
+}
+
+const char *turner_traversal_name(unsigned kind)
+{
+    return kind & TURNER_RAY_QUERY ? "ray_query" : kind & TURNER_PACKET ? "bvh_packet" : "bvh_lane";
 }
 
 static unsigned kind_of(const struct turner_methods *methods)
@@ -43,7 +57,8 @@ enum turner_result turner_choose_kernel(unsigned *kind, const struct turner_gpu_
                                         const struct turner_methods *methods,
                                         enum turner_traversal wanted)
 {
-    bool ray_query, f64 = methods->precision == TURNER_PRECISION_F64;
+    bool f64 = methods->precision == TURNER_PRECISION_F64;
+    enum turner_traversal chosen;
     *kind = kind_of(methods);
     if (*kind && !info->float64)
         return turner_fail(TURNER_DEVICE, "device \"%s\" has no 64-bit floats; leave out %s",
@@ -53,8 +68,12 @@ enum turner_result turner_choose_kernel(unsigned *kind, const struct turner_gpu_
     if (f64 && wanted == TURNER_TRAVERSAL_RAY_QUERY)
         return turner_fail(TURNER_USAGE, "ray queries are in 32-bit floats: choose traversal bvh "
                                          "for precision f64");
-    TURNER_TRY(turner_choose_traversal(&ray_query, info, f64 ? TURNER_TRAVERSAL_BVH : wanted));
-    *kind |= ray_query ? TURNER_RAY_QUERY : 0;
+    if (f64 && wanted == TURNER_TRAVERSAL_AUTO)
+        wanted = TURNER_TRAVERSAL_BVH;
+    TURNER_TRY(turner_choose_traversal(&chosen, info, wanted));
+    *kind |= chosen == TURNER_TRAVERSAL_RAY_QUERY    ? TURNER_RAY_QUERY
+             : chosen == TURNER_TRAVERSAL_BVH_PACKET ? TURNER_PACKET
+                                                     : 0;
     return TURNER_OK;
 }
 
@@ -68,9 +87,9 @@ enum turner_result turner_kernel_create_from(struct turner_kernel *kernel, const
                                              unsigned kind,
                                              const struct turner_render_options *options)
 {
-    static const char *const names[] = {"TURNER_RAY_QUERY", "TURNER_F64", "TURNER_SPHERE_F64",
-                                        "TURNER_RECORD", "TURNER_PROBE_HITS",
-                                        "TURNER_PROBE_RADIANCE", "TURNER_RAYS_SEND"};
+    static const char *const names[] = {
+        "TURNER_RAY_QUERY", "TURNER_PACKET",     "TURNER_F64",            "TURNER_SPHERE_F64",
+        "TURNER_RECORD",    "TURNER_PROBE_HITS", "TURNER_PROBE_RADIANCE", "TURNER_RAYS_SEND"};
     const char *defines[sizeof names / sizeof *names];
     size_t count = 0;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
@@ -106,7 +125,7 @@ struct turner_kernel_constants turner_kernel_constants(const struct turner_needs
     return (struct turner_kernel_constants){{
         {TURNER_CONSTANT_NEEDS, needs->bits},
         {TURNER_CONSTANT_STACK, needs->stack > 1 ? round_up(needs->stack, 8) : 1},
-        {TURNER_CONSTANT_BVH_STACK, round_up(bvh_depth + 1, 16)},
+        {TURNER_CONSTANT_BVH_STACK, round_up(bvh_depth > 0 ? bvh_depth : 1, 8)},
         {TURNER_CONSTANT_METHODS, needs->methods},
         {TURNER_CONSTANT_PIXEL_COUNTS, needs->pixel_counts},
     }};
@@ -146,7 +165,9 @@ static enum turner_result create(struct turner_renderer *renderer,
 
     double start = turner_seconds();
     TURNER_TRY(turner_flat_create(&renderer->flat, scene,
-                                  renderer->ray_query ? TURNER_ORDER_MEDIAN : TURNER_ORDER_SAH));
+                                  renderer->ray_query            ? TURNER_ORDER_MEDIAN
+                                  : kernel->kind & TURNER_PACKET ? TURNER_ORDER_WIDE
+                                                                 : TURNER_ORDER_SAH));
     double built = turner_seconds();
     TURNER_TRY(specialise(renderer, kernel));
     double specialised = turner_seconds();

@@ -9,14 +9,15 @@
 /* What the shaders' source is compiled to: the names are those of #defines. */
 enum turner_kernel_kind {
     TURNER_RAY_QUERY = 1 << 0,  /* the device's acceleration structures; without: our own */
-    TURNER_F64 = 1 << 1,        /* method precision=f64; the device has float64 */
-    TURNER_SPHERE_F64 = 1 << 2, /* method sphere=f64; the same */
-    TURNER_RECORD = 1 << 3,     /* notes down what it does for one pixel (render/explain.h) */
-    TURNER_PROBE_HITS = 1 << 4, /* of probe.comp (render/probe.h): what rays meet */
-    TURNER_PROBE_RADIANCE = 1 << 5, /* the same: the radiance they bring */
-    TURNER_RAYS_SEND = 1 << 6, /* of rays.comp (render/rays.h): rays sent on, not what they meet */
+    TURNER_PACKET = 1 << 1,     /* our own, walked by the lanes of a subgroup together */
+    TURNER_F64 = 1 << 2,        /* method precision=f64; the device has float64 */
+    TURNER_SPHERE_F64 = 1 << 3, /* method sphere=f64; the same */
+    TURNER_RECORD = 1 << 4,     /* notes down what it does for one pixel (render/explain.h) */
+    TURNER_PROBE_HITS = 1 << 5, /* of probe.comp (render/probe.h): what rays meet */
+    TURNER_PROBE_RADIANCE = 1 << 6, /* the same: the radiance they bring */
+    TURNER_RAYS_SEND = 1 << 7, /* of rays.comp (render/rays.h): rays sent on, not what they meet */
 };
-#define TURNER_KERNEL_KINDS 8 /* combinations */
+#define TURNER_KERNEL_KINDS 16 /* combinations of the first four */
 
 /* The shaders compiled to SPIR-V, for any scene whose methods want this kind. */
 struct turner_kernel {
@@ -65,10 +66,14 @@ struct turner_renderer {
     size_t list; /* samples of a list traced at once: follows the time they take */
 };
 
-/* Which traversal a device gets; TURNER_DEVICE names the missing extension when `wanted` is
- * ray_query and the device cannot. */
-enum turner_result turner_choose_traversal(bool *ray_query, const struct turner_gpu_info *info,
+/* Which traversal a device gets, BVH_LANE, BVH_PACKET or RAY_QUERY; TURNER_DEVICE says what is
+ * missing when the device cannot do what is wanted. */
+enum turner_result turner_choose_traversal(enum turner_traversal *chosen,
+                                           const struct turner_gpu_info *info,
                                            enum turner_traversal wanted);
+
+/* "bvh_lane", "bvh_packet" or "ray_query", of a kernel of this kind. */
+const char *turner_traversal_name(unsigned kind);
 
 /* The kind of kernel that draws with these methods on the device; `wanted` auto takes the methods'.
  * TURNER_DEVICE as above, and without float64 where they want it; TURNER_USAGE for precision f64

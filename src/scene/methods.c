@@ -13,7 +13,7 @@
 static const struct choice {
     const char *name;
     size_t member; /* of struct turner_methods, an enum */
-    const char *words[5];
+    const char *words[6];
 } choices[] = {
     {"sphere", offsetof(struct turner_methods, sphere), {"robust", "textbook", "f64"}},
     {"triangle", offsetof(struct turner_methods, triangle), {"watertight", "moller_trumbore"}},
@@ -23,7 +23,8 @@ static const struct choice {
      {"material", "none", "schlick", "exact"}},
     {"schlick_side", offsetof(struct turner_methods, schlick_side), {"transmitted", "incident"}},
     {"precision", offsetof(struct turner_methods, precision), {"f32", "f64"}},
-    {"traversal", offsetof(struct turner_methods, traversal), {"auto", "bvh", "ray_query"}},
+    {"traversal", offsetof(struct turner_methods, traversal),
+     {"auto", "bvh", "ray_query", "bvh_lane", "bvh_packet"}},
 };
 
 const struct turner_method turner_methods_list[] = {
@@ -59,8 +60,9 @@ const struct turner_method turner_methods_list[] = {
     {"error", "0 | <radiance> | 1/<n>", "0", "Above 0, depth, cutoff and samples are chosen so that "
      "no pixel is estimated to be off by more in a channel; they take it back.",
      "docs/error.md"},
-    {"traversal", "auto | bvh | ray_query", "auto", "Who finds what a ray meets: turner's own "
-     "hierarchy, or the device's.", "docs/model.md, \"Ties\""},
+    {"traversal", "auto | bvh | bvh_lane | bvh_packet | ray_query", "auto", "Who finds what a ray "
+     "meets: turner's own hierarchy, walked by each lane for itself or by the eight of a subgroup "
+     "together, or the device's.", "docs/model.md, \"Ties\""},
 };
 const size_t turner_method_count = sizeof turner_methods_list / sizeof *turner_methods_list;
 

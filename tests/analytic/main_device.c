@@ -28,17 +28,21 @@ static enum turner_result render(struct turner_image *image, const struct turner
 int main(int argc, char **argv)
 {
     static const struct turner_render_options options;
-    bool ray_query = argc > 1 && strcmp(argv[1], "ray_query") == 0;
+    const char *name = argc > 1 ? argv[1] : "bvh_lane";
+    enum turner_traversal traversal = strcmp(name, "ray_query") == 0 ? TURNER_TRAVERSAL_RAY_QUERY
+                                      : strcmp(name, "bvh_packet") == 0
+                                          ? TURNER_TRAVERSAL_BVH_PACKET
+                                          : TURNER_TRAVERSAL_BVH_LANE;
+    static const struct turner_methods methods;
+    unsigned kind;
     if (turner_gpu_create(&gpu, NULL, false) != TURNER_OK ||
-        turner_choose_traversal(&ray_query, &gpu.info, ray_query ? TURNER_TRAVERSAL_RAY_QUERY
-                                                                 : TURNER_TRAVERSAL_BVH) !=
-            TURNER_OK) {
+        turner_choose_kernel(&kind, &gpu.info, &methods, traversal) != TURNER_OK) {
         printf("skipped: %s\n", turner_message());
         turner_gpu_destroy(&gpu);
         return 77;
     }
     int failures = 0;
-    if (turner_kernel_create(&kernel, ray_query, &options) != TURNER_OK) {
+    if (turner_kernel_create(&kernel, kind, &options) != TURNER_OK) {
         printf("%s\n", turner_message());
         failures++;
     } else {

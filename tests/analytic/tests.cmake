@@ -18,7 +18,7 @@ foreach(layer IN ITEMS base image scene reference bvh gpu render)
     target_link_libraries(test_analytic_device PRIVATE turner_${layer})
 endforeach()
 set_target_properties(test_analytic_device PROPERTIES LINKER_LANGUAGE CXX)
-foreach(traversal IN ITEMS bvh ray_query)
+foreach(traversal IN ITEMS bvh_lane bvh_packet ray_query)
     add_test(NAME analytic_${traversal} COMMAND test_analytic_device ${traversal})
     set_tests_properties(analytic_${traversal} PROPERTIES SKIP_RETURN_CODE 77 LABELS device
         ENVIRONMENT "TURNER_VALIDATION=1;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/analytic_${traversal}")

@@ -263,8 +263,10 @@ int main(int argc, char **argv)
     require(turner_reference_render_layers(&image, &truth, scene, 0, &truth_counts, NULL, NULL));
     turner_image_destroy(&image);
     static const struct turner_render_options defaults;
-    require(turner_kernel_create(&kernel, ray_query ? TURNER_RAY_QUERY : f64 ? TURNER_F64 : 0,
-                                 &defaults));
+    unsigned kind;
+    require(turner_choose_kernel(&kind, &gpu.info, &scene->settings.methods,
+                                 ray_query ? TURNER_TRAVERSAL_RAY_QUERY : TURNER_TRAVERSAL_BVH));
+    require(turner_kernel_create(&kernel, kind, &defaults));
     layers.wanted = ALL;
     draw(&image, &layers, &counts);
     const struct CMUnitTest tests[] = {

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
+#include "bvh/wide.h"
 #include "scenes.h"
 
 #define NEVER ((double)INFINITY)
@@ -177,7 +178,7 @@ static bool meets_box(const struct ray *ray, const float lo[3], const float hi[3
 
 struct walk {
     const struct turner_flat *flat;
-    uint32_t *stack; /* max_depth entries */
+    uint32_t *stack; /* max_depth entries, for each of two levels */
     uint32_t height; /* in use, both levels together */
     uint64_t visits;
     struct hit best;
@@ -214,11 +215,45 @@ static void walk_nodes(struct walk *walk, uint32_t root, const struct ray *ray, 
     }
 }
 
+static void walk_wide(struct walk *walk, uint32_t root, const struct ray *ray, bool top,
+                      uint32_t instance)
+{
+    const struct turner_flat *flat = walk->flat;
+    uint32_t floor = walk->height;
+    walk->stack[walk->height++] = root;
+    while (walk->height > floor) {
+        assert_true(walk->visits++ < flat->max_visits);
+        const struct turner_gpu_wide_node *node = &flat->wide[walk->stack[--walk->height]];
+        for (int i = 0; i < 4; i++) {
+            float lo[3], hi[3];
+            for (int axis = 0; axis < 3; axis++) {
+                lo[axis] = turner_bvh_wide_plane(node, i, axis, 0);
+                hi[axis] = turner_bvh_wide_plane(node, i, axis, 1);
+            }
+            uint32_t child = node->child[i], first = child & TURNER_WIDE_FIRST;
+            if (!child || !meets_box(ray, lo, hi, walk->best.t))
+                continue;
+            if (!(child & TURNER_WIDE_LEAF)) {
+                assert_true(walk->height < floor + flat->max_depth); /* a stack for each level */
+                walk->stack[walk->height++] = child;
+            } else if (top) {
+                assert_true(walk->visits++ < flat->max_visits);
+                struct ray inner = into_group(&flat->instances[first], ray);
+                walk_wide(walk, flat->instances[first].root, &inner, false, first);
+            } else {
+                uint32_t count = ((child & ~TURNER_WIDE_LEAF) >> TURNER_WIDE_COUNT_SHIFT) + 1;
+                for (uint32_t k = first; k < first + count; k++)
+                    try_primitive(&walk->best, &flat->primitives[k], ray, instance);
+            }
+        }
+    }
+}
+
 static struct hit walk_all(const struct turner_flat *flat, const struct ray *ray)
 {
     struct walk walk = {.flat = flat, .best = {.t = NEVER}};
-    walk.stack = turner_calloc(flat->max_depth, sizeof *walk.stack);
-    walk_nodes(&walk, flat->root, ray, true, 0);
+    walk.stack = turner_calloc(2 * flat->max_depth, sizeof *walk.stack);
+    (flat->wide ? walk_wide : walk_nodes)(&walk, flat->root, ray, true, 0);
     free(walk.stack);
     return walk.best;
 }
@@ -243,10 +278,10 @@ static struct turner_vec3 aim(const struct turner_flat *flat, const size_t *ends
 
 /* Shoots rays between random points of the scene, some along an axis; at least `least` of a
  * hundred must hit, or the comparison would say little. */
-static void compare(struct turner_scene *scene, int rays, int least)
+static void compare_in(enum turner_order order, struct turner_scene *scene, int rays, int least)
 {
     struct turner_flat flat;
-    assert_int_equal(turner_flat_create(&flat, scene, TURNER_ORDER_SAH), TURNER_OK);
+    assert_int_equal(turner_flat_create(&flat, scene, order), TURNER_OK);
     size_t *ends = turner_calloc(scene->group_count + 1, sizeof *ends);
     for (size_t g = 0; g < scene->group_count; g++)
         ends[g + 1] = ends[g] + turner_group_primitive_count(&scene->groups[g]);
@@ -270,6 +305,12 @@ static void compare(struct turner_scene *scene, int rays, int least)
     assert_true(hits * 100 >= rays * least);
     free(ends);
     turner_flat_destroy(&flat);
+}
+
+static void compare(struct turner_scene *scene, int rays, int least)
+{
+    compare_in(TURNER_ORDER_SAH, scene, rays, least);
+    compare_in(TURNER_ORDER_WIDE, scene, rays, least);
     turner_scene_destroy(scene);
 }
 

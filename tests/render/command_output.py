@@ -60,7 +60,7 @@ def stats():
         reference = bool(options)
         assert s["device"] and (reference or s["driver"]), "no device or driver"
         assert s["traversal"] == "reference" if reference else s["traversal"] in (
-            "bvh", "ray_query"), "traversal"
+            "bvh_lane", "bvh_packet", "ray_query"), "traversal"
         assert s["precision"] == ("extended" if reference else "f32"), "precision"
         settings = s["settings"]
         assert settings.pop("methods") == {

@@ -6,12 +6,17 @@ void rig_open(struct rig *rig)
 {
     memset(rig, 0, sizeof *rig);
     open_device(&rig->gpu);
-    rig->traversals = rig->gpu.info.ray_query ? 2 : 1;
-    if (rig->traversals == 1)
+    if (!rig->gpu.info.ray_query)
         printf("ray_query is left out: %s lacks %s\n", rig->gpu.info.name, rig->gpu.info.missing);
+    if (!rig->gpu.info.packets)
+        printf("bvh_packet is left out: subgroups are not of 8 lanes\n");
     static const struct turner_render_options defaults;
-    for (int traversal = 0; traversal < rig->traversals; traversal++) {
-        if (turner_kernel_create(&rig->kernels[traversal], traversal == RAY_QUERY, &defaults) !=
+    const unsigned kinds[KERNELS] = {TURNER_PACKET, 0, TURNER_RAY_QUERY};
+    const bool able[KERNELS] = {rig->gpu.info.packets, true, rig->gpu.info.ray_query};
+    for (int i = 0; i < KERNELS; i++) {
+        if (!able[i])
+            continue;
+        if (turner_kernel_create(&rig->kernels[rig->traversals++], kinds[i], &defaults) !=
             TURNER_OK) {
             fprintf(stderr, "%s\n", turner_message());
             exit(1);
@@ -68,7 +73,6 @@ void assert_same_picture(const struct turner_image *a, const struct turner_image
 
 void assert_true_picture(struct rig *rig, struct turner_scene *scene, double share)
 {
-    static const char *const names[] = {"bvh", "ray_query"};
     static const struct tolerance tolerance = {1e-4, 1e-3};
     struct turner_image truth, image;
     struct turner_world world;
@@ -76,6 +80,7 @@ void assert_true_picture(struct rig *rig, struct turner_scene *scene, double sha
     assert_ok(turner_world_create(&world, scene));
     int pixels = truth.width * truth.height;
     for (int traversal = 0; traversal < rig->traversals; traversal++) {
+        const char *name = turner_traversal_name(rig->kernels[traversal].kind);
         draw(rig, &image, scene, traversal, NULL, NULL);
         int off = 0;
         for (int i = 0; i < pixels; i++) {
@@ -85,13 +90,13 @@ void assert_true_picture(struct rig *rig, struct turner_scene *scene, double sha
             off++;
             int x = i % truth.width, y = i / truth.width;
             if (explain(scene, &world, x, y, p, tolerance) == CAUSE_NONE)
-                fail_msg("%s: pixel %d,%d is %g %g %g instead of %g %g %g", names[traversal], x, y,
+                fail_msg("%s: pixel %d,%d is %g %g %g instead of %g %g %g", name, x, y,
                          (double)p[0], (double)p[1], (double)p[2], (double)q[0], (double)q[1],
                          (double)q[2]);
         }
-        printf("  %s: %d of %d pixels off, all on edges\n", names[traversal], off, pixels);
+        printf("  %s: %d of %d pixels off, all on edges\n", name, off, pixels);
         if (off > share * pixels)
-            fail_msg("%s: too many", names[traversal]);
+            fail_msg("%s: too many", name);
         turner_image_destroy(&image);
     }
     turner_world_destroy(&world);

@@ -1,4 +1,4 @@
-/* For tests of whole pictures: a device with both kernels, scenes from text, pictures compared. */
+/* For tests of whole pictures: a device with its kernels, scenes from text, pictures compared. */
 #ifndef TURNER_TESTS_RENDER_TEST_H
 #define TURNER_TESTS_RENDER_TEST_H
 
@@ -7,8 +7,9 @@
 #include "render/renderer.h"
 #include "scene/readers.h"
 
+/* Places in a rig: what the device lacks is left out. */
 #define BVH 0
-#define RAY_QUERY 1
+#define KERNELS 3
 
 /* What every scene from text starts with, to be followed by ", …}". */
 #define SCENE_HEAD "{\"version\": 1, \"camera\": {\"from\": [0, 0, 5], \"at\": [0, 0, 0]}"
@@ -16,8 +17,8 @@
 /* One device for the whole program, and what was compiled for it. */
 struct rig {
     struct turner_gpu gpu;
-    struct turner_kernel kernels[2]; /* BVH, RAY_QUERY */
-    int traversals;                  /* 1 where the device has no ray queries */
+    struct turner_kernel kernels[KERNELS]; /* BVH what the device gets; then others */
+    int traversals;                        /* how many */
 };
 
 void rig_open(struct rig *rig);              /* exits with 77 without a device */

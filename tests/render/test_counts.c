@@ -39,7 +39,7 @@ static void counts_are_the_references(void **state)
             draw(&rig, &image, scene, traversal, NULL, &found);
             turner_image_destroy(&image);
             printf("scene %zu, %s: %llu camera rays (%llu hit), %llu reflected (%llu totally), "
-                   "%llu refracted, %llu shadow, depth %d\n", i, traversal ? "ray_query" : "bvh",
+                   "%llu refracted, %llu shadow, depth %d\n", i, turner_traversal_name(rig.kernels[traversal].kind),
                    (unsigned long long)found.camera_rays, (unsigned long long)found.camera_hits,
                    (unsigned long long)found.reflected_rays, (unsigned long long)found.tir_rays,
                    (unsigned long long)found.refracted_rays,
@@ -87,7 +87,7 @@ static void samples_lie_where_the_model_says(void **state)
     scene->camera.vfov = 40 * 3.14159265358979323846 / 180;
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         scene->settings.spp = cases[c].spp;
-        struct turner_image images[3]; /* reference, then the traversals */
+        struct turner_image images[1 + KERNELS]; /* reference, then the traversals */
         assert_ok(turner_reference_render(&images[0], scene, 0, NULL, NULL, NULL));
         for (int traversal = 0; traversal < rig.traversals; traversal++)
             draw(&rig, &images[1 + traversal], scene, traversal, NULL, NULL);

@@ -116,7 +116,8 @@ static int most_off(const struct turner_scene *scene, double relative)
     for (int traversal = 0; traversal < rig.traversals; traversal++) {
         draw(&rig, &image, scene, traversal, NULL, NULL);
         assert_ok(turner_image_compare(&comparison, &image, &truth, 1e-4, relative));
-        printf("  %s: %d of %d pixels off by more than %g\n", traversal ? "ray_query" : "bvh",
+        printf("  %s: %d of %d pixels off by more than %g\n",
+               turner_traversal_name(rig.kernels[traversal].kind),
                (int)comparison.pixels_over, (int)comparison.pixels, relative);
         if ((int)comparison.pixels_over > most)
             most = (int)comparison.pixels_over;

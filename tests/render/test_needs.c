@@ -134,15 +134,16 @@ static void what_is_not_needed_is_not_there(void **state)
     struct turner_needs glass = needs_of("\"materials\": {\"m\": {\"k_d\": 0.5, \"k_r\": 1, \"k_t\""
                                          ": 1, \"index\": 1.5}}, " LAMP ", \"primitives\": ["
                                          SPHERE "]");
-    for (int traversal = 0; traversal < 2; traversal++) {
+    const unsigned kinds[] = {0, TURNER_PACKET, TURNER_RAY_QUERY};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         struct turner_kernel kernel;
-        assert_ok(turner_kernel_create(&kernel, traversal == RAY_QUERY, &defaults));
+        assert_ok(turner_kernel_create(&kernel, kinds[i], &defaults));
         size_t sizes[] = {specialised_size(&kernel, diffuse.bits, diffuse.stack),
                           specialised_size(&kernel, mirror.bits, mirror.stack),
                           specialised_size(&kernel, glass.bits, glass.stack),
                           specialised_size(&kernel, TURNER_NEEDS_ALL, glass.stack)};
         printf("%s: SPIR-V of %zu bytes; specialised: diffuse %zu, mirror %zu, glass %zu, all "
-               "%zu\n", traversal ? "ray_query" : "bvh", kernel.spirv.count * 4, sizes[0],
+               "%zu\n", turner_traversal_name(kinds[i]), kernel.spirv.count * 4, sizes[0],
                sizes[1], sizes[2], sizes[3]);
         assert_true(sizes[0] < sizes[1] && sizes[1] < sizes[2] && sizes[2] < sizes[3]);
         assert_true(2 * sizes[0] < sizes[3]);

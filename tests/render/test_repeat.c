@@ -27,7 +27,10 @@ static struct turner_scene *load(void)
     return loaded;
 }
 
-static const char *const names[] = {"bvh", "ray_query"};
+static const char *name_of(int traversal)
+{
+    return turner_traversal_name(rig.kernels[traversal].kind);
+}
 
 static void tiles_and_times(void **state)
 {
@@ -41,7 +44,7 @@ static void tiles_and_times(void **state)
             struct turner_render_options options = {.tile = tiles[i]};
             struct turner_statistics other = {0};
             char what[64];
-            snprintf(what, sizeof what, "%s, tiles of %d", names[traversal], tiles[i]);
+            snprintf(what, sizeof what, "%s, tiles of %d", name_of(traversal), tiles[i]);
             draw(&rig, &again, scene, traversal, &options, &other);
             assert_same_picture(&first, &again, what);
             assert_int_equal(counts.shadow_rays, other.shadow_rays);
@@ -70,7 +73,7 @@ static void one_renderer_twice(void **state)
             assert_ok(turner_renderer_draw(&renderer, &images[i], &defaults, &counts[i]));
         }
         turner_renderer_destroy(&renderer);
-        assert_same_picture(&images[0], &images[1], names[traversal]);
+        assert_same_picture(&images[0], &images[1], name_of(traversal));
         assert_int_equal(counts[0].shadow_rays, counts[1].shadow_rays);
         assert_int_equal(counts[0].camera_rays, counts[1].camera_rays);
         turner_image_destroy(&images[0]);
@@ -88,7 +91,7 @@ static void draw_elsewhere(struct turner_image *image, int traversal, const char
     assert_true(child >= 0);
     if (child == 0) {
         setenv("LP_NUM_THREADS", threads, 1);
-        execl(program, program, "--draw", names[traversal], path, (char *)NULL);
+        execl(program, program, "--draw", name_of(traversal), path, (char *)NULL);
         _exit(126);
     }
     int status;
@@ -106,8 +109,9 @@ static int draw_here(const char *traversal, const char *path)
 {
     struct turner_image image;
     const struct turner_render_options options = {
-        .traversal = strcmp(traversal, "bvh") == 0 ? TURNER_TRAVERSAL_BVH
-                                                   : TURNER_TRAVERSAL_RAY_QUERY};
+        .traversal = strcmp(traversal, "bvh_lane") == 0     ? TURNER_TRAVERSAL_BVH_LANE
+                     : strcmp(traversal, "bvh_packet") == 0 ? TURNER_TRAVERSAL_BVH_PACKET
+                                                            : TURNER_TRAVERSAL_RAY_QUERY};
     if (turner_render(&image, load(), &options, NULL) != TURNER_OK) {
         fprintf(stderr, "%s\n", turner_message());
         return 1;
@@ -129,7 +133,7 @@ static void threads_of_the_device(void **state)
         draw(&rig, &first, scene, traversal, NULL, NULL);
         for (int i = 0; i < 3; i++) {
             char what[64];
-            snprintf(what, sizeof what, "%s, LP_NUM_THREADS=%s", names[traversal], threads[i]);
+            snprintf(what, sizeof what, "%s, LP_NUM_THREADS=%s", name_of(traversal), threads[i]);
             draw_elsewhere(&other, traversal, threads[i]);
             assert_same_picture(&first, &other, what);
             turner_image_destroy(&other);

@@ -56,7 +56,7 @@ static void dispatches(void **state)
         }
         long grown = resident_kib() - before;
         printf("%s: %d dispatches, memory has grown by %ld KiB from %ld\n",
-               traversal ? "ray_query" : "bvh", 4 * DISPATCHES_A_DRAW, grown, before);
+               turner_traversal_name(rig.kernels[traversal].kind), 4 * DISPATCHES_A_DRAW, grown, before);
         assert_true(grown * 1024 <= 3 * DISPATCHES_A_DRAW * 64);
         assert_int_equal(rig.gpu.memory_used, used);
         turner_renderer_destroy(&renderer);
@@ -84,7 +84,7 @@ static void renderers(void **state)
                 before = resident_kib();
         }
         printf("%s: 8 more renderers, memory has grown by %ld KiB\n",
-               traversal ? "ray_query" : "bvh", resident_kib() - before);
+               turner_traversal_name(rig.kernels[traversal].kind), resident_kib() - before);
     }
     turner_scene_destroy(scene);
 }

@@ -19,7 +19,7 @@ static void same_bytes(void **state)
         struct turner_statistics lean_counts = {0}, full_counts = {0};
         draw(&rig, &lean, scene, traversal, NULL, &lean_counts);
         draw(&rig, &full, scene, traversal, &all, &full_counts);
-        printf("%s: needs %#x, then %#x\n", traversal ? "ray_query" : "bvh", lean_counts.needs,
+        printf("%s: needs %#x, then %#x\n", turner_traversal_name(rig.kernels[traversal].kind), lean_counts.needs,
                full_counts.needs);
         assert_true(lean_counts.needs != full_counts.needs);
         assert_same_picture(&lean, &full, path);

@@ -129,7 +129,10 @@ int main(void)
         printf("skipped: %s\n", turner_message());
         return 77;
     }
-    if (turner_kernel_create(&kernel, false, &options) != TURNER_OK) {
+    static const struct turner_methods methods;
+    unsigned kind;
+    if (turner_choose_kernel(&kind, &gpu.info, &methods, TURNER_TRAVERSAL_BVH) != TURNER_OK ||
+        turner_kernel_create(&kernel, kind, &options) != TURNER_OK) {
         printf("%s\n", turner_message());
         return 1;
     }

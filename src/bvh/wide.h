@@ -1,0 +1,21 @@
+/* From trees of two children a node to trees of four, for packets; only src/bvh includes this. */
+#ifndef TURNER_BVH_WIDE_H
+#define TURNER_BVH_WIDE_H
+
+#include "bvh/flat.h"
+
+/* Appends the binary tree under nodes[root] to wide[*count…], the root first, with no more nodes
+ * than it has, and returns the most entries that a walk keeps waiting which puts all children it
+ * meets on its stack and takes one: 0 for a tree without children. A leaf has at most 8 primitives,
+ * below TURNER_WIDE_FIRST + 1. The recursion is as deep as the tree.
+ * Boxes grow by less than a spacing of their node's grid (shaders/shared.h) and never shrink.
+ * Method: Dammertz, Hanika and Keller, "Shallow bounding volume hierarchies for fast SIMD ray
+ * tracing of incoherent rays", 2008; grids: Ylitie, Karras and Laine, "Efficient incoherent ray
+ * traversal on GPUs through compressed wide BVHs", 2017. */
+uint32_t turner_bvh_widen(struct turner_gpu_wide_node *wide, size_t *count,
+                          const struct turner_gpu_node *nodes, uint32_t root);
+
+/* Side (0 lower, 1 upper) of a child's box along an axis, as the shaders read it. */
+float turner_bvh_wide_plane(const struct turner_gpu_wide_node *node, int child, int axis, int side);
+
+#endif
