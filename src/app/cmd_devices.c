@@ -10,9 +10,8 @@ static void print_help(void)
 {
     puts("Usage: turner devices\n\n"
          "Lists every Vulkan device: its index and name (for --device), what it can do, and which\n"
-         "traversal --traversal auto takes on it. `bvh_lane` and `bvh_packet` are turner's own\n"
-         "bounding volume hierarchy, walked by each lane for itself, which runs everywhere, or by\n"
-         "the eight lanes of a subgroup together; `bvh` takes the faster of the two on the device.\n"
+         "traversal --traversal auto takes on it. `bvh` is turner's own bounding volume hierarchy\n"
+         "and runs everywhere, where subgroups have 8 lanes in packets of them, which is faster;\n"
          "`ray_query` needs the device's acceleration structures.\n"
          "`--device reference` needs no device: extended precision on the CPU.\n\n"
          "  -h, --help   this text");
@@ -31,16 +30,15 @@ static void print_device(size_t index, const struct turner_gpu_info *info)
            (double)info->device_memory / (1 << 30), (double)info->max_allocation / (1 << 30));
     printf("   subgroup    %u lanes; 64-bit floats: %s\n", info->subgroup_size,
            info->float64 ? "yes" : "no");
-    printf("   bvh_lane    yes\n");
-    printf("   bvh_packet  %s\n", info->packets ? "yes" : "no, wants subgroups of 8 lanes");
+    printf("   bvh         yes, %s\n", info->packets ? "in packets of 8 lanes"
+                                                     : "each lane for itself");
     if (info->ray_query)
         printf("   ray_query   yes\n");
     else
         printf("   ray_query   no, lacks %s\n", info->missing);
     if (turner_choose_traversal(&chosen, info, TURNER_TRAVERSAL_AUTO) == TURNER_OK)
-        printf("   auto        %s\n", chosen == TURNER_TRAVERSAL_RAY_QUERY    ? "ray_query"
-                                      : chosen == TURNER_TRAVERSAL_BVH_PACKET ? "bvh_packet"
-                                                                              : "bvh_lane");
+        printf("   auto        %s\n",
+               chosen == TURNER_TRAVERSAL_RAY_QUERY ? "ray_query" : "bvh");
 }
 
 enum turner_result turner_cmd_devices(int argc, char **argv)
