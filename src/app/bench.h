@@ -88,6 +88,7 @@ struct turner_bench {
     int width, height, rounds, threads;
     size_t check;             /* rays of each stream to check by the reference, at least */
     bool kinds[TURNER_BENCH_KINDS];
+    bool processor_time;      /* rates by it, not by the clock on the wall */
     bool growth;              /* the scenes are one, in growing sizes */
     char *const *with;        /* shader folders to measure beside ours, up to a NULL */
     char *const *tracers;     /* names to measure, up to a NULL; NULL: all */

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "app/bench.h"
 #include "app/chart.h"
@@ -207,14 +208,28 @@ static bool present(const struct turner_bench_tracer *tracer)
     return tracer->embree || tracer->renderer.gpu;
 }
 
+/* Of all threads of the process, the share of one. */
+static double processor_seconds(const struct turner_bench *bench)
+{
+    struct timespec used;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+    return ((double)used.tv_sec + 1e-9 * (double)used.tv_nsec) / bench->threads;
+}
+
 static enum turner_result trace(double *seconds, struct turner_gpu_hit *hits,
-                                struct turner_bench_tracer *tracer, struct turner_ray_list *list,
+                                const struct stage *stage, struct turner_bench_tracer *tracer,
+                                struct turner_ray_list *list,
                                 const struct turner_bench_stream *stream, int passes)
 {
-    if (tracer->embree)
-        return turner_embree_trace(seconds, hits, tracer->embree, stream->rays, stream->count,
-                                   passes, tracer->width, stream->coherent);
-    return turner_ray_list_trace(seconds, list, passes, &tracer->renderer);
+    double start = processor_seconds(stage->bench);
+    enum turner_result result =
+        tracer->embree ? turner_embree_trace(seconds, hits, tracer->embree, stream->rays,
+                                             stream->count, passes, tracer->width,
+                                             stream->coherent)
+                       : turner_ray_list_trace(seconds, list, passes, &tracer->renderer);
+    if (stage->bench->processor_time)
+        *seconds = processor_seconds(stage->bench) - start;
+    return result;
 }
 
 /* ---- one stream ---- */
@@ -258,8 +273,8 @@ static enum turner_result try_out(int *passes, struct stage *stage, enum turner_
             continue;
         }
         hits[i] = turner_calloc(stream->count, sizeof **hits);
-        TURNER_TRY(trace(&seconds, hits[i], tracer, list, stream, 1));
-        TURNER_TRY(trace(&seconds, hits[i], tracer, list, stream, 1));
+        TURNER_TRY(trace(&seconds, hits[i], stage, tracer, list, stream, 1));
+        TURNER_TRY(trace(&seconds, hits[i], stage, tracer, list, stream, 1));
         if (!tracer->embree)
             TURNER_TRY(turner_ray_list_hits(hits[i], list, stage->gpu));
         passes[i] = (int)fmin(1000, 1 + LEAST_SECONDS / fmax(seconds, 1e-6));
@@ -292,7 +307,8 @@ static enum turner_result measure_rounds(const int *passes, struct stage *stage,
             double seconds;
             if (!hits[i] || *cells[i].left_out)
                 continue;
-            TURNER_TRY(trace(&seconds, hits[i], &stage->tracers[i], list, stream, passes[i]));
+            TURNER_TRY(trace(&seconds, hits[i], stage, &stage->tracers[i], list, stream,
+                             passes[i]));
             cells[i].seconds[cells[i].rounds++] = seconds / passes[i];
         }
     }

@@ -107,8 +107,8 @@ void turner_bench_print(const struct turner_bench *bench)
         turner_bench_print_stages(bench);
         return;
     }
-    printf("million rays a second, median of %d rounds ± half the distance of the quartiles; "
-           "× times embree's\n", bench->rounds);
+    printf("million rays a second%s, median of %d rounds ± half the distance of the quartiles; "
+           "× times embree's\n", bench->processor_time ? " of processor time" : "", bench->rounds);
     for (size_t i = 0; i < bench->scene_count; i++)
         print_scene(bench, &bench->scenes[i]);
     if (bench->growth)
@@ -259,6 +259,7 @@ static enum turner_result write_json(const struct turner_bench *bench)
     cJSON_AddStringToObject(root, "embree", bench->embree);
     cJSON_AddNumberToObject(root, "threads", bench->threads);
     cJSON_AddNumberToObject(root, "rounds", bench->rounds);
+    cJSON_AddStringToObject(root, "clock", bench->processor_time ? "processor" : "wall");
     cJSON *scenes = cJSON_AddArrayToObject(root, "scenes");
     for (size_t i = 0; i < bench->scene_count; i++)
         cJSON_AddItemToArray(scenes, scene_json(bench, &bench->scenes[i]));

@@ -33,6 +33,8 @@ static void print_help(void)
          "      --tracers A,B    bvh, ray_query, embree, embree 8 (packets), embree robust (all)\n"
          "      --with FOLDER    measure bvh with shaders from there, too; may be repeated\n"
          "  -r, --rounds N       times each is measured (7)\n"
+         "      --cpu            rates by processor time, divided by the threads: on a CPU device,\n"
+         "                       while other programs run\n"
          "      --check N        rays of each kind compared with the reference, at least (4096)\n"
          "      --threads N      of Embree (as the device has: one per core, or LP_NUM_THREADS)\n"
          "  -d, --device D       index or part of the name (turner devices)\n"
@@ -41,7 +43,7 @@ static void print_help(void)
          "Rates are medians in million rays a second, ± half of the distance between quartiles;\n"
          "N.NN× is the median of the rounds' ratios to embree: ratios can be trusted on a busy\n"
          "machine, rates cannot. Times are by the clock on the wall, from a submission of some\n"
-         "30 ms or more of rays to its end.\n\n"
+         "30 ms or more of rays to its end, unless --cpu says otherwise.\n\n"
          "Examples:\n"
          "  turner bench -o bench && xdg-open bench/bench.png\n"
          "  turner bench --rays camera,shadow --tracers bvh,embree mesh:100000 scenes/forest.json\n"
@@ -102,7 +104,7 @@ static enum turner_result choose_tracers(struct arguments *a)
 static enum turner_result parse(struct arguments *a, int argc, char **argv)
 {
     enum { OPTION_RAYS = 256, OPTION_TRACERS, OPTION_WITH, OPTION_CHECK, OPTION_THREADS,
-           OPTION_GROWTH, OPTION_STAGES };
+           OPTION_GROWTH, OPTION_STAGES, OPTION_CPU };
     static const struct option options[] = {
         {"output", required_argument, NULL, 'o'},
         {"size", required_argument, NULL, 's'},
@@ -110,6 +112,7 @@ static enum turner_result parse(struct arguments *a, int argc, char **argv)
         {"tracers", required_argument, NULL, OPTION_TRACERS},
         {"with", required_argument, NULL, OPTION_WITH},
         {"rounds", required_argument, NULL, 'r'},
+        {"cpu", no_argument, NULL, OPTION_CPU},
         {"check", required_argument, NULL, OPTION_CHECK},
         {"threads", required_argument, NULL, OPTION_THREADS},
         {"stages", no_argument, NULL, OPTION_STAGES},
@@ -131,6 +134,7 @@ static enum turner_result parse(struct arguments *a, int argc, char **argv)
         case 'r':
             TURNER_TRY(turner_option_int(&b->rounds, "--rounds", optarg, 1, TURNER_BENCH_ROUNDS));
             break;
+        case OPTION_CPU: b->processor_time = true; break;
         case OPTION_CHECK:
             TURNER_TRY(turner_option_int(&check, "--check", optarg, 1, 1 << 30));
             break;
@@ -176,6 +180,11 @@ static enum turner_result measure_rays(struct turner_bench *bench)
     struct turner_gpu gpu;
     const char *why;
     TURNER_TRY(turner_gpu_create(&gpu, bench->wanted, false));
+    if (bench->processor_time && !gpu.info.software) {
+        turner_gpu_destroy(&gpu);
+        return turner_fail(TURNER_USAGE, "--cpu is for CPU devices: \"%s\" has a clock of its own, "
+                                         "leave it out", gpu.info.name);
+    }
     snprintf(bench->device, sizeof bench->device, "%s", gpu.info.name);
     snprintf(bench->driver, sizeof bench->driver, "%s", gpu.info.driver);
     struct turner_embree *embree = turner_embree_open(bench->threads, &why);
