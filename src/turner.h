@@ -98,6 +98,7 @@ struct turner_render_options {
     int tile;            /* pixels, width and height of what is traced at once; 0 adapts to time */
     int threads;         /* of the reference; 0 one per core */
     bool unspecialised;  /* everything in the kernel, needed or not: same picture, slower */
+    bool no_cache;       /* compiled shaders are neither taken from nor kept on disk */
     struct turner_layers *layers; /* NULL, or what to fill beside the picture; the caller destroys
                                      it, also after a failure */
     /* Called with the share done in [0,1]; false ends the rendering (TURNER_INTERRUPTED). */
@@ -122,11 +123,16 @@ struct turner_statistics {
     double cutoff_least;      /* lowest cutoff in use */
     uint64_t nonfinite;       /* pixels that are not finite, and the first one's place */
     int nonfinite_x, nonfinite_y;
-    double seconds_parse, seconds_device, seconds_build, seconds_compile, seconds_upload,
-        seconds_layers, seconds_trace, seconds_read_back, seconds_write;
+    /* Some of these run side by side, so that their sum may be more than the whole. What the
+     * library does not know, it leaves 0: start (processor time until main), parse, write, whole. */
+    double seconds_start, seconds_parse, seconds_device, seconds_build, seconds_compile,
+        seconds_upload, seconds_layers, seconds_trace, seconds_read_back, seconds_write,
+        seconds_whole;
     uint64_t host_peak_bytes, device_peak_bytes;
     uint32_t needs;           /* TURNER_NEEDS_… that were compiled in */
     size_t kernel_words;      /* size of the kernel's SPIR-V before specialisation */
+    bool source_cached, kernel_cached; /* the cache had the SPIR-V of the shaders, and of the kernel
+                                          specialised to the scene */
     size_t primitives, instances;
 };
 

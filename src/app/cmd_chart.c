@@ -9,6 +9,7 @@
 #include "app/chart.h"
 #include "app/plot.h"
 #include "base/memory.h"
+#include "gpu/cache.h"
 #include "scene/hash.h"
 
 #define CHART_WIDTH 256
@@ -41,8 +42,8 @@ static void print_help(void)
          "                         and formulas. arithmetic: against the same positions, depth,\n"
          "                         cutoff and Fresnel formula, so that only rounding is left\n"
          "      --reference-spp N  samples of the reference for pixel (default 256)\n"
-         "      --cache DIR        where references are kept (default turner/references in\n"
-         "                         $XDG_CACHE_HOME or ~/.cache); may be deleted any time\n"
+         "      --cache DIR        where references are kept (default references in\n"
+         "                         $TURNER_CACHE_DIR or ~/.cache/turner); may be deleted any time\n"
          "  -d, --device D         index or part of the name (turner devices)\n"
          "      --shader-dir DIR   take shaders from here first (may be repeated)\n"
          "  -q, --quiet            no progress bar, no tables\n"
@@ -164,17 +165,14 @@ static char *default_folder(const char *scene)
     return folder;
 }
 
-/* Of the XDG Base Directory Specification; in the chart's folder where there is no home. */
+/* In the chart's folder where turner has no place for what it keeps. */
 static char *default_cache(const char *folder)
 {
-    const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-    const char *base = cache && *cache == '/' ? cache : home && *home ? home : folder;
-    const char *rest = base == cache  ? "/turner/references"
-                       : base == home ? "/.cache/turner/references"
-                                      : "/references";
-    size_t size = strlen(base) + strlen(rest) + 1;
+    char kept[PATH_MAX];
+    const char *base = turner_cache_folder(kept) ? kept : folder;
+    size_t size = strlen(base) + sizeof "/references";
     char *path = turner_calloc(size, 1);
-    snprintf(path, size, "%s%s", base, rest);
+    snprintf(path, size, "%s/references", base);
     return path;
 }
 

@@ -2,12 +2,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "app/scene_options.h"
 #include "image/atomic.h"
 #include "image/image.h"
 #include "render/advice.h"
 #include "render/layers.h"
+#include "render/opening.h"
 #include "render/renderer.h"
 
 static void print_help(void)
@@ -42,6 +44,7 @@ static void print_help(void)
          "      --shader-dir DIR   take shaders from here first (may be repeated)\n"
          "      --tile N           pixels traced at once, N×N; default adapts to the time it takes\n"
          "      --threads N        of the reference\n"
+         "      --no-cache         compile the shaders anew, and keep nothing (docs/start.md)\n"
          "      --unspecialised    compile everything in, needed or not: same picture, slower\n"
          "      --stats FILE       what was done and how long it took, as JSON (- for stdout)\n"
          "      --print-settings   print the settings as they will be used, and stop\n"
@@ -55,11 +58,12 @@ static void print_help(void)
 struct arguments {
     const char *scene, *output, *stats;
     bool print_settings, quiet;
+    double loading, start; /* seconds before main, and the clock then */
     struct turner_layers layers;
     struct turner_scene_options options;
 };
 
-enum { TILE = TURNER_OPTION_OWN, THREADS, UNSPECIALISED, STATS, PRINT_SETTINGS, AOV };
+enum { TILE = TURNER_OPTION_OWN, THREADS, UNSPECIALISED, NO_CACHE, STATS, PRINT_SETTINGS, AOV };
 
 static const struct option long_options[] = {
     {"output", required_argument, NULL, 'o'},
@@ -81,6 +85,7 @@ static const struct option long_options[] = {
     {"shader-dir", required_argument, NULL, TURNER_OPTION_SHADER_DIR},
     {"tile", required_argument, NULL, TILE},
     {"threads", required_argument, NULL, THREADS},
+    {"no-cache", no_argument, NULL, NO_CACHE},
     {"unspecialised", no_argument, NULL, UNSPECIALISED},
     {"stats", required_argument, NULL, STATS},
     {"print-settings", no_argument, NULL, PRINT_SETTINGS},
@@ -97,6 +102,7 @@ static enum turner_result take(struct arguments *a, int option, char **argv)
     case AOV: return turner_layers_parse(&a->layers.wanted, optarg);
     case TILE: return turner_option_int(&render->tile, "--tile", optarg, 1, 4096);
     case THREADS: return turner_option_int(&render->threads, "--threads", optarg, 1, 1024);
+    case NO_CACHE: render->no_cache = true; return TURNER_OK;
     case UNSPECIALISED: render->unspecialised = true; return TURNER_OK;
     case STATS: a->stats = optarg; return TURNER_OK;
     case PRINT_SETTINGS: a->print_settings = true; return TURNER_OK;
@@ -150,8 +156,17 @@ static void print_summary(const struct arguments *a, const struct turner_statist
                "radiance bounds the error)\n", s->pruned_mean, s->pruned_max);
 }
 
+/* Of the processor before main: what loading the program took. */
+static double loading_seconds(void)
+{
+    struct timespec used;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+    return (double)used.tv_sec + 1e-9 * (double)used.tv_nsec;
+}
+
 static enum turner_result render(struct arguments *a, struct turner_scene *scene,
-                                 struct turner_statistics *statistics)
+                                 struct turner_statistics *statistics,
+                                 struct turner_opening *opening)
 {
     struct turner_progress_bar bar;
     struct turner_image image = {0};
@@ -161,11 +176,13 @@ static enum turner_result render(struct arguments *a, struct turner_scene *scene
     options->progress = turner_progress_show;
     options->user = &bar;
     options->layers = a->layers.wanted ? &a->layers : NULL;
-    result = turner_render(&image, scene, options, statistics);
+    result = turner_render_opened(&image, scene, options, statistics, opening);
     turner_progress_end(&bar);
     if (result != TURNER_OK)
         goto done;
     TURNER_TRY_DONE(write_picture(a, scene, &image, statistics));
+    statistics->seconds_start = a->loading;
+    statistics->seconds_whole = a->loading + turner_seconds() - a->start;
     if (a->stats)
         TURNER_TRY_DONE(turner_statistics_write(a->stats, scene, statistics));
     if (!a->quiet && !(a->stats && strcmp(a->stats, "-") == 0))
@@ -176,9 +193,49 @@ done:
     return result;
 }
 
+static enum turner_result load(struct turner_scene **scene, const struct arguments *a)
+{
+    TURNER_TRY(turner_scene_load(scene, a->scene));
+    enum turner_result result = turner_scene_options_apply(&a->options, *scene);
+    if (result != TURNER_OK)
+        turner_scene_destroy(*scene);
+    return result;
+}
+
+static enum turner_result print_settings(const struct arguments *a)
+{
+    struct turner_scene *scene;
+    TURNER_TRY(load(&scene, a));
+    char *settings = turner_settings_json(scene);
+    puts(settings);
+    free(settings);
+    turner_scene_destroy(scene);
+    return TURNER_OK;
+}
+
+static enum turner_result load_and_render(struct arguments *a)
+{
+    struct turner_scene *scene;
+    struct turner_statistics statistics = {0};
+    struct turner_opening opening;
+    turner_opening_start(&opening, a->options.render.device);
+    double start = turner_seconds();
+    enum turner_result result = load(&scene, a);
+    statistics.seconds_parse = turner_seconds() - start;
+    if (result == TURNER_OK) {
+        turner_advise(scene, a->scene, turner_image_bits(a->output));
+        result = render(a, scene, &statistics, &opening);
+        turner_scene_destroy(scene);
+    }
+    turner_opening_destroy(&opening);
+    return result;
+}
+
 enum turner_result turner_cmd_render(int argc, char **argv)
 {
-    struct arguments a = {.options = TURNER_SCENE_OPTIONS};
+    struct arguments a = {.options = TURNER_SCENE_OPTIONS,
+                          .loading = loading_seconds(),
+                          .start = turner_seconds()};
     opterr = 0;
     for (int option; (option = getopt_long(argc, argv, "o:d:m:qh", long_options, NULL)) != -1;) {
         if (option == 'h') {
@@ -200,20 +257,5 @@ enum turner_result turner_cmd_render(int argc, char **argv)
     if (a.stats && strcmp(a.stats, "-") != 0)
         TURNER_TRY(turner_atomic_check(a.stats));
 
-    struct turner_scene *scene;
-    struct turner_statistics statistics = {0};
-    double start = turner_seconds();
-    TURNER_TRY(turner_scene_load(&scene, a.scene));
-    statistics.seconds_parse = turner_seconds() - start;
-    enum turner_result result = turner_scene_options_apply(&a.options, scene);
-    if (result == TURNER_OK && a.print_settings) {
-        char *settings = turner_settings_json(scene);
-        puts(settings);
-        free(settings);
-    } else if (result == TURNER_OK) {
-        turner_advise(scene, a.scene, turner_image_bits(a.output));
-        result = render(&a, scene, &statistics);
-    }
-    turner_scene_destroy(scene);
-    return result;
+    return a.print_settings ? print_settings(&a) : load_and_render(&a);
 }

@@ -102,6 +102,7 @@ static cJSON *statistics_object(const struct turner_scene *scene,
     }
 
     cJSON *seconds = cJSON_AddObjectToObject(object, "seconds");
+    cJSON_AddNumberToObject(seconds, "start", s->seconds_start);
     cJSON_AddNumberToObject(seconds, "parse", s->seconds_parse);
     cJSON_AddNumberToObject(seconds, "device", s->seconds_device);
     cJSON_AddNumberToObject(seconds, "build", s->seconds_build);
@@ -111,6 +112,11 @@ static cJSON *statistics_object(const struct turner_scene *scene,
     cJSON_AddNumberToObject(seconds, "trace", s->seconds_trace);
     cJSON_AddNumberToObject(seconds, "read_back", s->seconds_read_back);
     cJSON_AddNumberToObject(seconds, "write", s->seconds_write);
+    cJSON_AddNumberToObject(seconds, "whole", s->seconds_whole);
+
+    cJSON *cached = cJSON_AddObjectToObject(object, "cached");
+    cJSON_AddBoolToObject(cached, "source", s->source_cached);
+    cJSON_AddBoolToObject(cached, "kernel", s->kernel_cached);
 
     cJSON *bytes = cJSON_AddObjectToObject(object, "peak_bytes");
     add_count(bytes, "host", s->host_peak_bytes);

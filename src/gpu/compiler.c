@@ -3,6 +3,7 @@
 #include <ctype.h>
 #include <glslang/Include/glslang_c_interface.h>
 #include <glslang/Public/resource_limits_c.h>
+#include <glslang/build_info.h>
 #include <pthread.h>
 #include <spirv-tools/libspirv.h>
 #include <stdarg.h>
@@ -144,7 +145,7 @@ static void initialise(void)
     ready = glslang_initialize_process(); /* never finalised: it lasts as long as the process */
 }
 
-static bool wants_validation(void)
+bool turner_spirv_wants_validation(void)
 {
 #ifndef NDEBUG
     return true;
@@ -192,11 +193,13 @@ enum turner_result turner_compile(struct turner_spirv *out,
         result = fail_with_log(source, glslang_program_get_info_log(program));
         goto done;
     }
-    glslang_program_SPIRV_generate(program, GLSLANG_STAGE_COMPUTE);
+    /* without glslang's own validation, whose findings it only notes: it takes half as long again */
+    glslang_spv_options_t options = {.disable_optimizer = true};
+    glslang_program_SPIRV_generate_with_options(program, GLSLANG_STAGE_COMPUTE, &options);
     out->count = glslang_program_SPIRV_get_size(program);
     out->words = turner_calloc(out->count, sizeof *out->words);
     glslang_program_SPIRV_get(program, out->words);
-    if (wants_validation()) {
+    if (turner_spirv_wants_validation()) {
         result = turner_spirv_validate(out);
         if (result != TURNER_OK)
             turner_fail_within(result, "%s", source->files[0].path);
@@ -232,4 +235,10 @@ enum turner_result turner_spirv_validate(const struct turner_spirv *spirv)
     spvValidatorOptionsDestroy(options);
     spvContextDestroy(context);
     return result;
+}
+
+void turner_compiler_libraries(char text[256])
+{
+    snprintf(text, 256, "glslang %d.%d.%d%s, %s", GLSLANG_VERSION_MAJOR, GLSLANG_VERSION_MINOR,
+             GLSLANG_VERSION_PATCH, GLSLANG_VERSION_FLAVOR, spvSoftwareVersionString());
 }

@@ -23,4 +23,10 @@ void turner_spirv_destroy(struct turner_spirv *spirv);
  * block layout. */
 enum turner_result turner_spirv_validate(const struct turner_spirv *spirv);
 
+/* Builds with assertions, and TURNER_VALIDATION=1, do. */
+bool turner_spirv_wants_validation(void);
+
+/* Name and version of the libraries that compile and specialise. */
+void turner_compiler_libraries(char text[256]);
+
 #endif

@@ -10,9 +10,8 @@ extern "C" {
 #include "gpu/specialise.h"
 }
 
-enum turner_result turner_spirv_specialise(struct turner_spirv *out,
-                                           const struct turner_spirv *spirv,
-                                           const struct turner_constant *constants, size_t count)
+static enum turner_result run(struct turner_spirv *out, const struct turner_spirv *spirv,
+                              const struct turner_constant *constants, size_t count, bool optimise)
 {
     *out = {};
     std::unordered_map<uint32_t, std::vector<uint32_t>> values;
@@ -30,8 +29,12 @@ enum turner_result turner_spirv_specialise(struct turner_spirv *out,
         .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
         .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
         .RegisterPass(spvtools::CreateCCPPass())
-        .RegisterPass(spvtools::CreateDeadBranchElimPass())
-        .RegisterPerformancePasses();
+        .RegisterPass(spvtools::CreateDeadBranchElimPass());
+    if (optimise)
+        optimizer.RegisterPerformancePasses();
+    else
+        optimizer.RegisterPass(spvtools::CreateStripDebugInfoPass())
+            .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
     spvtools::OptimizerOptions options;
     options.set_run_validator(false); /* turner_spirv_validate does that */
     std::vector<uint32_t> words;
@@ -42,4 +45,17 @@ enum turner_result turner_spirv_specialise(struct turner_spirv *out,
     out->words = static_cast<uint32_t *>(turner_calloc(words.size(), sizeof *out->words));
     std::memcpy(out->words, words.data(), words.size() * sizeof *out->words);
     return TURNER_OK;
+}
+
+enum turner_result turner_spirv_specialise(struct turner_spirv *out,
+                                           const struct turner_spirv *spirv,
+                                           const struct turner_constant *constants, size_t count)
+{
+    return run(out, spirv, constants, count, true);
+}
+
+enum turner_result turner_spirv_reduce(struct turner_spirv *out, const struct turner_spirv *spirv,
+                                       const struct turner_constant *constants, size_t count)
+{
+    return run(out, spirv, constants, count, false);
 }

@@ -43,6 +43,13 @@ static enum turner_result submit(struct turner_renderer *renderer,
     return turner_gpu_submit_wait(renderer->gpu, commands);
 }
 
+enum turner_result turner_renderer_warm(struct turner_renderer *renderer)
+{
+    struct turner_gpu_dispatch push = dispatch_of(renderer); /* of a tile without pixels */
+    TURNER_TRY(submit(renderer, &push, 1, 1));
+    return renderer->accurate ? turner_renderer_warm(renderer->accurate) : TURNER_OK;
+}
+
 static enum turner_result trace_sample(struct turner_renderer *renderer, struct tile tile,
                                        int sample)
 {

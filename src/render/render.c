@@ -1,14 +1,17 @@
 /* turner_render: from a scene to a picture and its statistics, on a device or by the reference. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 
+#include "base/memory.h"
 #include "reference/reference.h"
 #include "render/adaptive.h"
 #include "render/cells.h"
 #include "render/contrast.h"
 #include "render/features.h"
 #include "render/layers.h"
+#include "render/opening.h"
 #include "render/renderer.h"
 #include "../shaders/shared.h"
 
@@ -74,28 +77,64 @@ static enum turner_result draw_by_reference(struct turner_image *image,
     return TURNER_OK;
 }
 
+/* Shaders are compiled while the device opens, for the kernel that a device on a CPU would get;
+ * whether that was right is known afterwards. Either's failure counts in the order of the steps. */
+static enum turner_result open_and_compile(struct turner_kernel *kernel,
+                                           struct turner_opening *opening,
+                                           const struct turner_methods *methods,
+                                           const struct turner_render_options *options,
+                                           struct turner_statistics *statistics)
+{
+    static const struct turner_gpu_info likely = {
+        .software = true, .packets = true, .ray_query = true, .float64 = true};
+    unsigned guess, kind;
+    double start = turner_seconds();
+    enum turner_result compiled =
+        turner_choose_kernel(&guess, &likely, methods, options->traversal);
+    if (compiled == TURNER_OK)
+        compiled = turner_kernel_create(kernel, guess, options);
+    else
+        guess = ~0u;
+    char *message = compiled == TURNER_OK ? NULL : turner_strdup(turner_message());
+    statistics->seconds_compile = turner_seconds() - start;
+
+    enum turner_result result;
+    TURNER_TRY_DONE(turner_opening_finish(opening));
+    TURNER_TRY_DONE(
+        turner_choose_kernel(&kind, &opening->gpu.info, methods, options->traversal));
+    if (kind != guess) {
+        turner_kernel_destroy(kernel);
+        start = turner_seconds();
+        result = turner_kernel_create(kernel, kind, options);
+        statistics->seconds_compile += turner_seconds() - start;
+    } else if (compiled != TURNER_OK) {
+        result = turner_fail(compiled, "%s", message);
+    }
+done:
+    free(message);
+    return result;
+}
+
 static enum turner_result draw_on_device(struct turner_image *image,
                                          const struct turner_scene *scene,
                                          const struct turner_render_options *options,
-                                         struct turner_statistics *statistics)
+                                         struct turner_statistics *statistics,
+                                         struct turner_opening *opening)
 {
-    struct turner_gpu gpu;
+    struct turner_gpu *gpu = &opening->gpu;
     struct turner_kernel kernel = {0};
     struct turner_renderer renderer = {0};
-    unsigned kind;
     enum turner_result result;
-    double start = turner_seconds();
-    TURNER_TRY_DONE(turner_gpu_create(&gpu, options->device, false));
-    statistics->seconds_device = turner_seconds() - start;
-    snprintf(statistics->device, sizeof statistics->device, "%s", gpu.info.name);
-    snprintf(statistics->driver, sizeof statistics->driver, "%s", gpu.info.driver);
     const struct turner_methods *methods = &scene->settings.methods;
-    TURNER_TRY_DONE(turner_choose_kernel(&kind, &gpu.info, methods, options->traversal));
-    start = turner_seconds();
-    TURNER_TRY_DONE(turner_kernel_create(&kernel, kind, options));
-    statistics->seconds_compile = turner_seconds() - start;
-    TURNER_TRY_DONE(turner_renderer_create(&renderer, &gpu, &kernel, scene, options, statistics));
-    statistics->traversal = turner_traversal_name(kind);
+    TURNER_TRY_DONE(open_and_compile(&kernel, opening, methods, options, statistics));
+    statistics->seconds_device = opening->seconds;
+    snprintf(statistics->device, sizeof statistics->device, "%s", gpu->info.name);
+    snprintf(statistics->driver, sizeof statistics->driver, "%s", gpu->info.driver);
+    TURNER_TRY_DONE(turner_renderer_create(&renderer, gpu, &kernel, scene, options, statistics));
+    double start = turner_seconds();
+    TURNER_TRY_DONE(turner_renderer_warm(&renderer));
+    statistics->seconds_compile += turner_seconds() - start;
+    statistics->traversal = turner_traversal_name(kernel.kind);
     statistics->precision = methods->precision == TURNER_PRECISION_F64 ? "f64" : "f32";
     if (turner_layers_want(options->layers, TURNER_LAYERS_OF_CENTER))
         TURNER_TRY_DONE(turner_features_draw(options->layers, &renderer, &kernel, scene, options,
@@ -104,14 +143,26 @@ static enum turner_result draw_on_device(struct turner_image *image,
 done:
     turner_renderer_destroy(&renderer);
     turner_kernel_destroy(&kernel);
-    statistics->device_peak_bytes = gpu.memory_peak;
-    turner_gpu_destroy(&gpu);
+    statistics->device_peak_bytes = gpu->memory_peak;
     return result;
 }
 
 enum turner_result turner_render(struct turner_image *image, const struct turner_scene *scene,
                                  const struct turner_render_options *options,
                                  struct turner_statistics *statistics)
+{
+    struct turner_opening opening;
+    turner_opening_start(&opening, options ? options->device : NULL);
+    enum turner_result result = turner_render_opened(image, scene, options, statistics, &opening);
+    turner_opening_destroy(&opening);
+    return result;
+}
+
+enum turner_result turner_render_opened(struct turner_image *image,
+                                        const struct turner_scene *scene,
+                                        const struct turner_render_options *options,
+                                        struct turner_statistics *statistics,
+                                        struct turner_opening *opening)
 {
     static const struct turner_render_options defaults;
     struct turner_statistics unused;
@@ -134,7 +185,7 @@ enum turner_result turner_render(struct turner_image *image, const struct turner
     if (!reference) /* that makes its own */
         TURNER_TRY(turner_image_create(image, scene->settings.width, scene->settings.height));
     TURNER_TRY(reference ? draw_by_reference(image, scene, options, statistics)
-                         : draw_on_device(image, scene, options, statistics));
+                         : draw_on_device(image, scene, options, statistics, opening));
     inspect(image, statistics);
     if (options->layers)
         turner_layers_inspect(options->layers, image);

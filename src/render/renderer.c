@@ -6,8 +6,8 @@
 #include <time.h>
 
 #include "base/memory.h"
+#include "gpu/cached.h"
 #include "gpu/include.h"
-#include "gpu/specialise.h"
 #include "render/adaptive.h"
 #include "render/follow.h"
 #include "render/layers.h"
@@ -102,7 +102,9 @@ enum turner_result turner_kernel_create_from(struct turner_kernel *kernel, const
     enum turner_result result;
     TURNER_TRY_DONE(turner_shader_source_create(&source, file, options->shader_dirs,
                                                 options->shader_dir_count));
-    TURNER_TRY_DONE(turner_compile(&kernel->spirv, &source, defines, count));
+    result = options->no_cache ? turner_compile(&kernel->spirv, &source, defines, count)
+                               : turner_compile_cached(&kernel->spirv, &kernel->cached, &source,
+                                                       defines, count);
 done:
     turner_shader_source_destroy(&source);
     return result;
@@ -144,13 +146,26 @@ enum turner_result turner_kernel_size(size_t *bytes, const struct turner_kernel 
     return TURNER_OK;
 }
 
+/* Drivers could fold the constants themselves, but those that run on a CPU do it each time anew. */
 static enum turner_result specialise(struct turner_renderer *renderer,
-                                     const struct turner_kernel *kernel)
+                                     const struct turner_kernel *kernel,
+                                     const struct turner_render_options *options,
+                                     struct turner_statistics *statistics)
 {
     struct turner_kernel_constants constants =
         turner_kernel_constants(&renderer->needs, renderer->flat.max_depth);
-    return turner_program_create(&renderer->program, renderer->gpu, &kernel->spirv, constants.at,
-                                 sizeof constants.at / sizeof *constants.at, VK_NULL_HANDLE);
+    const size_t count = sizeof constants.at / sizeof *constants.at;
+    struct turner_spirv special;
+    enum turner_result result =
+        options->no_cache
+            ? turner_spirv_reduce(&special, &kernel->spirv, constants.at, count)
+            : turner_spirv_reduce_cached(&special, &statistics->kernel_cached, &kernel->spirv,
+                                         constants.at, count);
+    TURNER_TRY(result);
+    result = turner_program_create(&renderer->program, renderer->gpu, &special, NULL, 0,
+                                   VK_NULL_HANDLE);
+    turner_spirv_destroy(&special);
+    return result;
 }
 
 static enum turner_result create(struct turner_renderer *renderer,
@@ -169,7 +184,7 @@ static enum turner_result create(struct turner_renderer *renderer,
                                   : kernel->kind & TURNER_PACKET ? TURNER_ORDER_WIDE
                                                                  : TURNER_ORDER_SAH));
     double built = turner_seconds();
-    TURNER_TRY(specialise(renderer, kernel));
+    TURNER_TRY(specialise(renderer, kernel, options, statistics));
     double specialised = turner_seconds();
     TURNER_TRY(turner_device_scene_create(&renderer->scene, gpu, scene, &renderer->flat,
                                           &renderer->needs, renderer->ray_query));
@@ -196,6 +211,7 @@ static enum turner_result create(struct turner_renderer *renderer,
     statistics->seconds_compile += specialised - built;
     statistics->seconds_upload = turner_seconds() - specialised;
     statistics->kernel_words = kernel->spirv.count;
+    statistics->source_cached = kernel->cached;
     statistics->needs = renderer->needs.bits;
     statistics->primitives = renderer->flat.primitive_count + scene->plane_count;
     statistics->instances = scene->instance_count;

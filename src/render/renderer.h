@@ -22,6 +22,7 @@ enum turner_kernel_kind {
 /* The shaders compiled to SPIR-V, for any scene whose methods want this kind. */
 struct turner_kernel {
     unsigned kind; /* TURNER_RAY_QUERY | … */
+    bool cached;   /* the cache had it (gpu/cache.h) */
     struct turner_spirv spirv;
 };
 
@@ -90,6 +91,10 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
                                           const struct turner_render_options *options,
                                           struct turner_statistics *statistics);
 void turner_renderer_destroy(struct turner_renderer *renderer);
+
+/* Runs the kernel of render.comp on no pixel: a driver that compiles at the first dispatch does so
+ * then. */
+enum turner_result turner_renderer_warm(struct turner_renderer *renderer);
 
 #define TURNER_TILE_MAX 512       /* edge in pixels */
 #define TURNER_LIST_MAX (1u << 16) /* samples; no more than pixels of the largest tile */

@@ -4,7 +4,7 @@ turner_unit_test(explain_tree ${CMAKE_CURRENT_LIST_DIR}/test_explain_tree.c
 turner_unit_test(explain_compare ${CMAKE_CURRENT_LIST_DIR}/test_explain_compare.c
                  LAYERS base image scene reference)
 target_sources(test_explain_compare PRIVATE ${PROJECT_SOURCE_DIR}/src/app/explain_compare.c)
-turner_unit_test(explain_kernel ${CMAKE_CURRENT_LIST_DIR}/test_explain_kernel.c LAYERS base gpu)
+turner_unit_test(explain_kernel ${CMAKE_CURRENT_LIST_DIR}/test_explain_kernel.c LAYERS base image gpu)
 
 add_executable(test_explain_device ${CMAKE_CURRENT_LIST_DIR}/test_explain_device.c
     ${PROJECT_SOURCE_DIR}/src/app/explain_compare.c)

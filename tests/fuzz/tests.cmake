@@ -41,7 +41,7 @@ target_link_options(fuzz_json PRIVATE
     -Wl,--wrap=turner_mesh_read_file -Wl,--wrap=turner_scene_texture)
 
 # Shader sources that include each other, held in memory.
-turner_fuzz_target(include ${turner_fuzz_folder}/fuzz_include.c LAYERS base gpu)
+turner_fuzz_target(include ${turner_fuzz_folder}/fuzz_include.c LAYERS base image gpu)
 target_link_options(fuzz_include PRIVATE
     -Wl,--wrap=turner_embedded_shaders -Wl,--wrap=turner_embedded_shaders_count)
 

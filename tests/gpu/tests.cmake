@@ -2,7 +2,7 @@
 # processes that start at once.
 foreach(name gpu_include gpu_compiler gpu_layout gpu_device gpu_memory gpu_program gpu_accel
              gpu_faults)
-    turner_unit_test(${name} ${CMAKE_CURRENT_LIST_DIR}/test_${name}.c LAYERS base gpu)
+    turner_unit_test(${name} ${CMAKE_CURRENT_LIST_DIR}/test_${name}.c LAYERS base image gpu)
     set_tests_properties(${name} PROPERTIES ENVIRONMENT
         "MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/tests/gpu/cache-${name}")
 endforeach()

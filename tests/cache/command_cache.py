@@ -1,0 +1,174 @@
+"""command_cache.py reuse | broken | key | pair | off: pictures, whatever the cache is like.
+
+Environment: TURNER, the command; TURNER_SOURCE. Exit status 77 without a Vulkan device.
+"""
+
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+TURNER = os.environ["TURNER"]
+SHADERS = pathlib.Path(os.environ["TURNER_SOURCE"]) / "shaders"
+SCENE = """{"version": 1, "camera": {"from": [0, 1, 5], "at": [0, 0, 0]},
+ "background": 0.5, "settings": {"size": [48, 32], "depth": 4},
+ "materials": {"glass": {"k_r": 1, "k_t": 1, "index": 1.5}, "grey": {"k_d": 0.5}},
+ "primitives": [
+  {"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "glass"},
+  {"type": "box", "min": [-3, -2, -2], "max": [3, -1, 1], "material": "grey"}],
+ "lights": [{"type": "point", "position": [2, 4, 3], "intensity": 30}]}"""
+
+
+def render(*options, cache="cache", status=0, **changes):
+    """The picture's bytes and what came from the cache: (source, kernel)."""
+    env = dict(os.environ, TURNER_CACHE_DIR=str(pathlib.Path(cache).absolute()) if cache else "")
+    env.update(changes)
+    for name in ("p.png", "s.json"):
+        pathlib.Path(name).unlink(missing_ok=True)
+    command = ["render", "scene.json", "-o", "p.png", "-q", "--stats", "s.json", *options]
+    done = subprocess.run([TURNER, *command], capture_output=True, text=True, timeout=120, env=env)
+    print("$ turner", *options, f"=> {done.returncode}", done.stdout, done.stderr)
+    if done.returncode == 4 and "no Vulkan driver" in done.stderr:
+        sys.exit(77)
+    assert done.returncode == status, "another exit status was expected"
+    assert done.stdout == "", "something on stdout"
+    if status:
+        return done.stderr
+    assert "cache" not in done.stderr, "a word about the cache"
+    cached = json.loads(pathlib.Path("s.json").read_text())["cached"]
+    return pathlib.Path("p.png").read_bytes(), (cached["source"], cached["kernel"])
+
+
+def entries(cache="cache"):
+    return sorted((pathlib.Path(cache) / "shaders").iterdir())
+
+
+def reuse():
+    """The second run takes both from the cache, and draws the same."""
+    first, cached = render()
+    assert cached == (False, False), "an empty cache had something"
+    assert [e.name.split("-")[0] for e in entries()] == ["reduced", "spirv"]
+    second, cached = render()
+    assert cached == (True, True), "nothing came from the cache"
+    assert second == first
+    # another scene needs another kernel of the same source
+    text = pathlib.Path("scene.json").read_text()
+    pathlib.Path("scene.json").write_text(text.replace('"k_r": 1, "k_t": 1, "index": 1.5',
+                                                       '"k_d": 0.3'))
+    other, cached = render()
+    assert cached == (True, False) and other != first
+    assert len(entries()) == 3
+
+
+def broken():
+    """However entries are spoilt, the picture stays and the entry is made again."""
+    first, _ = render()
+    whole = {entry: entry.read_bytes() for entry in entries()}
+    spoilt = {
+        "empty": lambda b: b"",
+        "short": lambda b: b[:len(b) // 2],
+        "one byte short": lambda b: b[:-1],
+        "garbage": lambda b: bytes((i * 167 + 13) % 256 for i in range(len(b))),
+        "another version": lambda b: bytes([b[0] ^ 1]) + b[1:],
+        "last word": lambda b: b[:-4] + bytes(4),
+        "zeros": lambda b: bytes(len(b)),
+    }
+    for what, spoil in spoilt.items():
+        print("--", what)
+        for entry, content in whole.items():
+            entry.write_bytes(spoil(content))
+        picture, cached = render()
+        assert picture == first and cached == (False, False), what
+        assert {e: e.read_bytes() for e in entries()} == whole, f"{what}: not mended"
+    # each taken for the other
+    a, b = whole
+    a.write_bytes(whole[b])
+    b.write_bytes(whole[a])
+    assert render() == (first, (False, False))
+    # one of them gone, then all, then the folder, then a folder in place of an entry
+    a.unlink()
+    assert render()[0] == first
+    shutil.rmtree("cache/shaders")
+    assert render() == (first, (False, False))
+    shutil.rmtree("cache")
+    assert render() == (first, (False, False))
+    a.unlink()
+    a.mkdir()
+    assert render()[0] == first
+    a.rmdir()
+    # folders that cannot be written: read-only (not for root), a file in the way, nowhere
+    for path in (pathlib.Path("cache/shaders"), pathlib.Path("cache")):
+        path.chmod(0o555)
+    assert render() in ((first, (False, True)), (first, (True, False)), (first, (True, True)))
+    for path in (pathlib.Path("cache"), pathlib.Path("cache/shaders")):
+        path.chmod(0o755)
+    pathlib.Path("file").write_text("x")
+    assert render(cache="file") == (first, (False, False))
+    assert render(cache="file/cache") == (first, (False, False))
+    assert render(cache="/proc/turner") == (first, (False, False))
+    assert pathlib.Path("file").read_text() == "x"
+
+
+def key():
+    """Sources are compared, not their names; what does not compile is never hidden."""
+    first, _ = render()
+    shutil.copytree(SHADERS, "mine")
+    assert render("--shader-dir", "mine") == (first, (True, True)), "the same text is the same"
+    hook = pathlib.Path("mine/background.glsl")
+    text = hook.read_text()
+    hook.write_text(text + "// a word more\n")
+    picture, cached = render("--shader-dir", "mine")
+    assert picture == first and not cached[0], "changed text came from the cache"
+    assert render("--shader-dir", "mine")[1] == (True, True)
+    hook.write_text(text + "!\n")
+    said = render("--shader-dir", "mine", status=3)
+    assert re.search(r"background\.glsl:\d+", said), said
+    hook.write_text(text)
+    assert render("--shader-dir", "mine") == (first, (True, True))
+    # another kind of kernel is another entry
+    count = len(entries())
+    _, cached = render("-m", "sphere=f64")
+    assert not cached[0] and len(entries()) == count + 2
+
+
+def pair():
+    """Several processes fill an empty cache at once."""
+    env = dict(os.environ, TURNER_CACHE_DIR=str(pathlib.Path("cache").absolute()))
+    runs = [subprocess.Popen([TURNER, "render", "scene.json", "-q", "-o", f"{i}.png"], env=env)
+            for i in range(4)]
+    assert [run.wait(timeout=240) for run in runs] == [0] * 4
+    pictures = {pathlib.Path(f"{i}.png").read_bytes() for i in range(4)}
+    assert len(pictures) == 1
+    assert [e.name.split("-")[0] for e in entries()] == ["reduced", "spirv"], "something was left"
+    assert render() == (pictures.pop(), (True, True))
+
+
+def off():
+    """Switched off, nothing is read and nothing kept, not even in the home folder."""
+    home = pathlib.Path("home").absolute()
+    home.mkdir()
+    first, _ = render()
+    before = {entry: entry.read_bytes() for entry in entries()}
+    assert render("--no-cache") == (first, (False, False))
+    assert render(cache="", HOME=str(home), XDG_CACHE_HOME="") == (first, (False, False))
+    assert not list(home.rglob("*turner*")), "something was kept"
+    shutil.rmtree("cache")
+    assert render("--no-cache") == (first, (False, False))
+    assert not pathlib.Path("cache").exists() and before
+
+
+def main():
+    tests = {"reuse": reuse, "broken": broken, "key": key, "pair": pair, "off": off}
+    os.environ["LC_ALL"] = "C"
+    with tempfile.TemporaryDirectory(prefix="turner-cache-") as folder:
+        os.chdir(folder)
+        pathlib.Path("scene.json").write_text(SCENE)
+        tests[sys.argv[1]]()
+        os.chdir("/")
+
+
+main()
