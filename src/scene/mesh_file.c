@@ -125,7 +125,8 @@ static enum turner_result add_triangle(struct reading *r, const uint32_t corners
         p[c] = mesh->positions[corners[c]];
     struct turner_vec3 ng =
         turner_vec3_cross(turner_vec3_sub(p[1], p[0]), turner_vec3_sub(p[2], p[0]));
-    if (!(turner_vec3_length(ng) > 0)) {
+    /* the length is slower, and right where squares vanish */
+    if (!(turner_vec3_dot(ng, ng) > 0 || turner_vec3_length(ng) > 0)) {
         r->dropped++;
         return TURNER_OK;
     }
@@ -277,89 +278,6 @@ static void complete_normals(struct reading *r)
     }
 }
 
-/* Every bit of a vertex, so that equal vertices have equal bytes. */
-struct vertex_key {
-    double position[3];
-    float normal[3], uv[2];
-    float unused; /* no padding bytes */
-};
-
-static struct vertex_key key_of(const struct turner_mesh *mesh, uint32_t i)
-{
-    struct vertex_key key = {0};
-    key.position[0] = mesh->positions[i].x + 0.0; /* −0 equals 0 */
-    key.position[1] = mesh->positions[i].y + 0.0;
-    key.position[2] = mesh->positions[i].z + 0.0;
-    if (mesh->normals)
-        memcpy(key.normal, mesh->normals[i], sizeof key.normal);
-    if (mesh->uvs)
-        memcpy(key.uv, mesh->uvs[i], sizeof key.uv);
-    return key;
-}
-
-static size_t hash_key(const struct vertex_key *key)
-{
-    uint64_t words[sizeof *key / sizeof(uint64_t)], hash = 0;
-    memcpy(words, key, sizeof words);
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-        hash = (hash ^ words[i]) * 0x9e3779b97f4a7c15u;
-        hash ^= hash >> 29;
-    }
-    return (size_t)hash;
-}
-
-/* Joins vertices that are equal in everything, drops those that no triangle uses, and numbers the
- * rest in the order of their use. */
-static void join_vertices(struct turner_mesh *mesh)
-{
-    size_t slot_count = 16;
-    while (slot_count < 2 * (size_t)mesh->vertex_count)
-        slot_count *= 2;
-    uint32_t *slots = turner_calloc(slot_count, sizeof *slots); /* 1 + new number */
-    uint32_t *numbers = turner_calloc(mesh->vertex_count, sizeof *numbers); /* 1 + new number */
-    uint32_t *kept = turner_calloc(mesh->vertex_count, sizeof *kept); /* new -> old number */
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
-        for (int c = 0; c < 3; c++) {
-            uint32_t old = mesh->triangles[i][c];
-            if (!numbers[old]) {
-                struct vertex_key key = key_of(mesh, old);
-                size_t slot = hash_key(&key) & (slot_count - 1);
-                while (slots[slot]) {
-                    struct vertex_key other = key_of(mesh, kept[slots[slot] - 1]);
-                    if (memcmp(&key, &other, sizeof key) == 0)
-                        break;
-                    slot = (slot + 1) & (slot_count - 1);
-                }
-                if (!slots[slot]) {
-                    kept[count++] = old;
-                    slots[slot] = count;
-                }
-                numbers[old] = slots[slot];
-            }
-            mesh->triangles[i][c] = numbers[old] - 1;
-        }
-    }
-    struct turner_mesh joined = {.triangles = mesh->triangles, .vertex_count = count,
-                                 .triangle_count = mesh->triangle_count};
-    joined.positions = turner_calloc(count, sizeof *joined.positions);
-    joined.normals = mesh->normals ? turner_calloc(count, sizeof *joined.normals) : NULL;
-    joined.uvs = mesh->uvs ? turner_calloc(count, sizeof *joined.uvs) : NULL;
-    for (uint32_t i = 0; i < count; i++) {
-        joined.positions[i] = mesh->positions[kept[i]];
-        if (joined.normals)
-            memcpy(joined.normals[i], mesh->normals[kept[i]], sizeof joined.normals[i]);
-        if (joined.uvs)
-            memcpy(joined.uvs[i], mesh->uvs[kept[i]], sizeof joined.uvs[i]);
-    }
-    mesh->triangles = NULL;
-    turner_mesh_destroy(mesh);
-    *mesh = joined;
-    free(slots);
-    free(numbers);
-    free(kept);
-}
-
 static const char *ending_of(const char *path)
 {
     const char *dot = strrchr(path, '.'), *slash = strrchr(path, '/');
@@ -400,7 +318,7 @@ static enum turner_result read_scene(struct reading *r, const struct aiScene *fi
     if (!r->mesh.triangle_count)
         return turner_fail(TURNER_BAD_INPUT, "%s: holds no triangles with an area", r->path);
     complete_normals(r);
-    join_vertices(&r->mesh);
+    turner_mesh_join(&r->mesh);
     if (r->dropped)
         turner_warn("%s: %zu face%s without area left out", r->path, r->dropped,
                     r->dropped == 1 ? "" : "s");

@@ -29,6 +29,10 @@ void turner_mesh_smooth(struct turner_mesh *mesh);
 /* Frees the arrays and zeroes the mesh. */
 void turner_mesh_destroy(struct turner_mesh *mesh);
 
+/* Joins vertices that are equal in everything, drops those that no triangle uses, and numbers the
+ * rest in the order of their use. */
+void turner_mesh_join(struct turner_mesh *mesh);
+
 /* The index in scene->texture_images of the picture at `path` (as it is to be opened), which is
  * read on first use; 8-bit pictures are decoded from sRGB, float pictures taken as linear.
  * TURNER_BAD_INPUT with the path and the reason. */
