@@ -173,6 +173,7 @@ static void widen(struct turner_flat *flat, size_t group_count, uint32_t *group_
     }
     size_t first = count;
     uint32_t entries = turner_bvh_widen(flat->wide, &count, flat->nodes, flat->root);
+    turner_bvh_wide_boxes(flat->wide, count, flat->nodes);
     flat->root = (uint32_t)first;
     flat->max_depth = 1 + (entries > waiting ? entries : waiting);
     flat->max_visits = count - first;

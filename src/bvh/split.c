@@ -27,21 +27,31 @@ void turner_bins_clear(struct turner_bins *bins, const struct turner_grid *grid)
     }
 }
 
+static inline void add_item(struct turner_bins *bins, const struct turner_bvh_item *item,
+                            const struct turner_grid *grid, turner_vec4 last)
+{
+    turner_vec4 lo = turner_vec4_load3(item->lo), hi = turner_vec4_load3(item->hi);
+    /* not below 0, or NaN where ∞·0 */
+    turner_vec4 place = turner_vec4_min((turner_center4(lo, hi) - grid->lo) * grid->scale, last);
+    turner_ivec4 bin = __builtin_convertvector(place, turner_ivec4);
+    for (int axis = 0; axis < 3; axis++) {
+        turner_box4_grow(&bins->box[axis][bin[axis]], lo, hi);
+        bins->count[axis][bin[axis]]++;
+    }
+}
+
+/* Neighbours are often of one bin and would wait for each other: items from four places in turn. */
 void turner_bins_add(struct turner_bins *bins, const struct turner_bvh_item *items, uint32_t count,
                      const struct turner_grid *grid)
 {
-    const turner_vec4 last = turner_vec4_of((float)(grid->bins - 1)), grid_lo = grid->lo,
-                      scale = grid->scale;
-    for (uint32_t i = 0; i < count; i++) {
-        turner_vec4 lo = turner_vec4_load3(items[i].lo), hi = turner_vec4_load3(items[i].hi);
-        /* not below 0, or NaN where ∞·0 */
-        turner_vec4 place = turner_vec4_min((turner_center4(lo, hi) - grid_lo) * scale, last);
-        turner_ivec4 bin = __builtin_convertvector(place, turner_ivec4);
-        for (int axis = 0; axis < 3; axis++) {
-            turner_box4_grow(&bins->box[axis][bin[axis]], lo, hi);
-            bins->count[axis][bin[axis]]++;
-        }
+    const turner_vec4 last = turner_vec4_of((float)(grid->bins - 1));
+    const uint32_t quarter = count / 4;
+    for (uint32_t i = 0; i < quarter; i++) {
+        for (uint32_t k = 0; k < 4; k++)
+            add_item(bins, &items[k * quarter + i], grid, last);
     }
+    for (uint32_t i = 4 * quarter; i < count; i++)
+        add_item(bins, &items[i], grid, last);
 }
 
 void turner_bins_join(struct turner_bins *bins, const struct turner_bins *more,
@@ -105,7 +115,7 @@ void turner_split_move(struct turner_bvh_item *left, struct turner_bvh_item *rig
 {
     const int axis = split->axis;
     const float grid_lo = grid->lo[axis], scale = grid->scale[axis], first = (float)split->bin;
-    const turner_vec4 most = turner_vec4_of(FLT_MAX);
+    const turner_vec4 most = turner_vec4_of(FLT_MAX), limits[2] = {most, -most};
     struct turner_box4 left_centers = centers[0], right_centers = centers[1];
     for (uint32_t i = 0; i < count; i++) {
         turner_vec4 center =
@@ -116,13 +126,13 @@ void turner_split_move(struct turner_bvh_item *left, struct turner_bvh_item *rig
         *to = items[i];
         left += is_left;
         right += !is_left;
-        /* without a branch, which would be guessed wrong half the time */
-        int32_t all = -(int32_t)is_left;
-        turner_ivec4 mask = {all, all, all, all};
-        turner_box4_grow(&left_centers, turner_vec4_select(mask, center, most),
-                         turner_vec4_select(mask, center, -most));
-        turner_box4_grow(&right_centers, turner_vec4_select(mask, most, center),
-                         turner_vec4_select(mask, -most, center));
+        /* without a branch, which would be guessed wrong half the time: the box that the item does
+         * not belong to is given the ends of all floats, which change nothing */
+        turner_vec4 low = limits[is_left], high = limits[!is_left];
+        turner_box4_grow(&left_centers, turner_vec4_max(center, low),
+                         turner_vec4_min(center, high));
+        turner_box4_grow(&right_centers, turner_vec4_max(center, high),
+                         turner_vec4_min(center, low));
     }
     centers[0] = left_centers;
     centers[1] = right_centers;

@@ -5,7 +5,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { WIDTH = 4, STEPS = 255 };
+#include "base/parallel.h"
+
+enum { WIDTH = 4, STEPS = 255, PIECE = 4096 };
 
 struct child {
     float lo[3], hi[3];
@@ -124,7 +126,7 @@ uint32_t turner_bvh_widen(struct turner_gpu_wide_node *wide, size_t *count,
     int child_count = gather_children(children, nodes, root);
     size_t index = (*count)++;
     wide[index] = (struct turner_gpu_wide_node){0};
-    set_boxes(&wide[index], children, child_count);
+    wide[index].face[0].planes = root; /* until turner_bvh_wide_boxes */
     uint32_t below = 1;
     for (int i = 0; i < child_count; i++) {
         const struct child *child = &children[i];
@@ -139,6 +141,30 @@ uint32_t turner_bvh_widen(struct turner_gpu_wide_node *wide, size_t *count,
         below = entries > below ? entries : below;
     }
     return child_count ? (uint32_t)child_count - 1 + below : 0;
+}
+
+struct boxing {
+    struct turner_gpu_wide_node *wide;
+    const struct turner_gpu_node *nodes;
+    uint32_t count;
+};
+
+static void box_piece(void *user, uint32_t piece)
+{
+    const struct boxing *b = user;
+    for (uint32_t i = piece * PIECE; i < turner_piece_end(b->count, PIECE, piece); i++) {
+        struct child children[WIDTH];
+        int count = gather_children(children, b->nodes, b->wide[i].face[0].planes);
+        b->wide[i].face[0].planes = 0;
+        set_boxes(&b->wide[i], children, count);
+    }
+}
+
+void turner_bvh_wide_boxes(struct turner_gpu_wide_node *wide, size_t count,
+                           const struct turner_gpu_node *nodes)
+{
+    struct boxing boxing = {wide, nodes, (uint32_t)count};
+    turner_parallel_for(turner_pieces(boxing.count, PIECE), box_piece, &boxing);
 }
 
 float turner_bvh_wide_plane(const struct turner_gpu_wide_node *node, int child, int axis, int side)

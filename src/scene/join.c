@@ -114,7 +114,8 @@ void turner_mesh_join(struct turner_mesh *mesh)
     turner_parallel_for(turner_pieces(mesh->vertex_count, PIECE), hash_piece, &table);
     number_vertices(&table, mesh);
     uint32_t count = table.count;
-    struct turner_mesh joined = {.triangles = mesh->triangles, .vertex_count = count,
+    struct turner_mesh joined = {.triangles = mesh->triangles,
+                                 .vertex_count = count,
                                  .triangle_count = mesh->triangle_count};
     joined.positions = turner_calloc(count, sizeof *joined.positions);
     joined.normals = mesh->normals ? turner_calloc(count, sizeof *joined.normals) : NULL;
