@@ -34,6 +34,7 @@ execute_process(COMMAND pkg-config --cflags --libs turner OUTPUT_VARIABLE flags
 separate_arguments(flags UNIX_COMMAND "${FLAGS} ${flags}")
 run(${C_COMPILER} -o ${WORK}/consumer ${SOURCE}/consumer.c ${flags} -Wl,-rpath,${prefix}/${LIBDIR})
 run(${WORK}/consumer ${prefix}/share/turner/scenes/whitted1980.json)
+run(${WORK}/consumer ${prefix}/share/turner/scenes/environment.json) # reads a picture
 
 # ---- the command, from where it was installed ----
 execute_process(COMMAND ${prefix}/bin/turner render
