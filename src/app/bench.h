@@ -53,7 +53,8 @@ struct turner_bench_cell {
     double seconds[TURNER_BENCH_ROUNDS];   /* of one pass */
     double rate, low, high; /* rays a second: median and quartiles */
     double ratio;           /* median over the rounds of the rate by that of "embree"; or NAN */
-    size_t checked, wrong;  /* rays compared with the reference, and where it says otherwise */
+    size_t checked, wrong;  /* rays compared with the reference, and where it says otherwise; */
+    size_t misnamed;        /* the distance is right, and the primitive another */
 };
 
 /* Building what a tracer walks, from the scene's arrays in memory. */
@@ -131,7 +132,7 @@ double turner_bench_ratio(const double *yardstick, const double *own, int n);
 /* ---- checks (bench_check.c) ---- */
 
 /* Compares what tracers[0 … n − 1] say of a stream with the reference: on `check` rays spread
- * evenly, and wherever two of them disagree. Fills checked and wrong of cells[0 … n − 1];
+ * evenly, and wherever two of them disagree. Fills checked, wrong and misnamed of cells[0 … n − 1];
  * a tracer whose hits are NULL is passed over. */
 void turner_bench_check(struct turner_bench_cell *cells, struct turner_gpu_hit *const *hits,
                         size_t n, const struct turner_bench_stream *stream,

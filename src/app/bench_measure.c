@@ -284,7 +284,7 @@ static enum turner_result try_out(int *passes, struct stage *stage, enum turner_
         if (!hits[i] || turner_bench_right(&cells[i], stream->count))
             continue;
         snprintf(cells[i].left_out, sizeof cells[i].left_out, "%zu of %zu rays wrong",
-                 cells[i].wrong, stream->count);
+                 cells[i].wrong + cells[i].misnamed, stream->count);
         turner_warn("%s, %s rays: %s meets other things than the reference, %s",
                     stage->result->name, turner_bench_kind_names[kind], stage->bench->names[i],
                     cells[i].left_out);

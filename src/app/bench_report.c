@@ -130,7 +130,7 @@ static enum turner_result write_file(const struct turner_bench *bench, const cha
 static void print_csv(FILE *out, const struct turner_bench *bench)
 {
     fprintf(out, "scene,primitives,instances,rays,ray_count,tracer,rounds,rays_per_second,"
-                 "first_quartile,third_quartile,ratio_to_embree,checked,wrong,left_out\n");
+                 "first_quartile,third_quartile,ratio_to_embree,checked,wrong,misnamed,left_out\n");
     for (size_t s = 0; s < bench->scene_count; s++) {
         const struct turner_bench_scene *scene = &bench->scenes[s];
         for (int kind = 0; kind < TURNER_BENCH_KINDS; kind++) {
@@ -145,7 +145,8 @@ static void print_csv(FILE *out, const struct turner_bench *bench)
                     fprintf(out, ",,,");
                 if (cell->rounds && !isnan(cell->ratio))
                     fprintf(out, "%.4f", cell->ratio);
-                fprintf(out, ",%zu,%zu,\"%s\"\n", cell->checked, cell->wrong, cell->left_out);
+                fprintf(out, ",%zu,%zu,%zu,\"%s\"\n", cell->checked, cell->wrong, cell->misnamed,
+                        cell->left_out);
             }
         }
     }
@@ -190,6 +191,7 @@ static cJSON *cell_json(const struct turner_bench_cell *cell, const char *tracer
     cJSON_AddStringToObject(object, "tracer", tracer);
     cJSON_AddNumberToObject(object, "checked", (double)cell->checked);
     cJSON_AddNumberToObject(object, "wrong", (double)cell->wrong);
+    cJSON_AddNumberToObject(object, "misnamed", (double)cell->misnamed);
     if (!cell->rounds) {
         cJSON_AddStringToObject(object, "left_out", cell->left_out);
         return object;

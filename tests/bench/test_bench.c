@@ -198,13 +198,41 @@ static void a_single_wrong_hit_is_found(void **state)
         {court->first[i].t * 1.001f, court->first[i].id, 0},         /* too far */
         {court->first[i].t - 0.001f, court->first[i].id, 0},
         {(float)NAN, court->first[i].id, 0},
+        {court->first[i].t, court->first[i].id ^ 1, 0},              /* another sphere, */
+        {court->first[i].t, court->first[i].id, 1},                  /* or in an instance, */
+        {court->first[i].t, court->first[i].id | 2u << 30, 0},       /* or a triangle */
     };
+    const size_t misnamed = 4; /* from here on */
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         court->second[i] = wrong[k];
         judge(cells, court, 1);
-        assert_int_equal(cells[0].wrong, 0);
-        assert_int_equal(cells[1].wrong, 1);
+        assert_int_equal(cells[0].wrong + cells[0].misnamed, 0);
+        assert_int_equal(cells[1].wrong, k < misnamed);
+        assert_int_equal(cells[1].misnamed, k >= misnamed);
     }
+}
+
+/* Two spheres in one place: either will do, another one will not. */
+static void either_of_two_is_right(void **state)
+{
+    struct court *court = *state;
+    struct turner_bench_cell cells[2];
+    struct turner_group *group = &court->scene->groups[0];
+    uint32_t twin = (uint32_t)group->sphere_count;
+    for (uint32_t k = 0; k < twin; k++)
+        *TURNER_PUSH(group->spheres, group->sphere_count, group->sphere_capacity) =
+            (struct turner_sphere){group->spheres[k].center, group->spheres[k].radius, 0};
+    turner_world_destroy(&court->world);
+    assert_int_equal(turner_world_create(&court->world, court->scene), TURNER_OK);
+    for (int i = 0; i < RAYS; i++)
+        court->second[i].id += twin;
+    judge(cells, court, RAYS);
+    assert_int_equal(cells[0].wrong + cells[1].wrong, 0);
+    assert_int_equal(cells[0].misnamed + cells[1].misnamed, 0);
+    court->second[some_hit(court)].id ^= 1;
+    judge(cells, court, 1);
+    assert_int_equal(cells[0].misnamed, 0);
+    assert_int_equal(cells[1].misnamed, 1);
 }
 
 /* What both are wrong about is found by the sample, and gets no figure. */
@@ -254,6 +282,8 @@ static void limit_of_wrong_rays(void **state)
     assert_false(turner_bench_right(&(struct turner_bench_cell){.wrong = 2}, 100));
     assert_true(turner_bench_right(&(struct turner_bench_cell){.wrong = 11}, 1000000));
     assert_false(turner_bench_right(&(struct turner_bench_cell){.wrong = 12}, 1000000));
+    assert_true(turner_bench_right(&(struct turner_bench_cell){.misnamed = 101}, 1000000));
+    assert_false(turner_bench_right(&(struct turner_bench_cell){.misnamed = 102}, 1000000));
 }
 
 /* ---- growth ---- */
@@ -290,6 +320,7 @@ int main(void)
         cmocka_unit_test(wrong_names_are_refused),
         IN_COURT(right_hits_pass),
         IN_COURT(a_single_wrong_hit_is_found),
+        IN_COURT(either_of_two_is_right),
         IN_COURT(common_errors_are_found),
         IN_COURT(shadow_rays_are_yes_or_no),
         cmocka_unit_test(limit_of_wrong_rays),
