@@ -42,8 +42,7 @@ bool turner_cache_folder(char folder[PATH_MAX])
 static bool entries_folder(char folder[PATH_MAX])
 {
     char base[PATH_MAX];
-    return turner_cache_folder(base) &&
-           snprintf(folder, PATH_MAX, "%s/shaders", base) < PATH_MAX;
+    return turner_cache_folder(base) && snprintf(folder, PATH_MAX, "%s/shaders", base) < PATH_MAX;
 }
 
 static uint64_t hash_parts(uint64_t hash, const struct turner_cache_part *key, size_t count)
@@ -162,7 +161,8 @@ struct file {
 
 static int older_first(const void *a, const void *b)
 {
-    const struct timespec *x = &((const struct file *)a)->used, *y = &((const struct file *)b)->used;
+    const struct timespec *x = &((const struct file *)a)->used,
+                          *y = &((const struct file *)b)->used;
     if (x->tv_sec != y->tv_sec)
         return x->tv_sec < y->tv_sec ? -1 : 1;
     return (x->tv_nsec > y->tv_nsec) - (x->tv_nsec < y->tv_nsec);
@@ -222,8 +222,8 @@ void turner_cache_store(const void *bytes, size_t size, const char *kind,
         }
         memcpy(at, bytes, size);
         struct header header = {.magic = MAGIC, .key_size = key_size, .size = size};
-        header.checksum = turner_hash_bytes(TURNER_HASH_START, file + sizeof header,
-                                            total - sizeof header);
+        header.checksum =
+            turner_hash_bytes(TURNER_HASH_START, file + sizeof header, total - sizeof header);
         memcpy(file, &header, sizeof header);
         make_folders(folder);
         if (turner_atomic_write(path, file, total) == TURNER_OK)

@@ -1,9 +1,10 @@
 /* Files kept from one run to the next: what takes time to make and follows wholly from its key.
  *
- * A cache can be deleted, truncated, full, foreign or read-only at any time: then it has nothing and
- * keeps nothing, without a word. An entry holds its whole key, so none is ever taken for another,
- * and a checksum of its content. It is written aside and renamed: several processes may share a
- * folder. The oldest entries go when all of them together are more than TURNER_CACHE_BYTES. */
+ * A cache can be deleted, truncated, full, foreign or read-only at any time: then it has nothing
+ * and keeps nothing, without a word. An entry holds its whole key, so none is ever taken for
+ * another, and a checksum of its content. It is written aside and renamed: several processes may
+ * share a folder. The oldest entries go when all of them together are more than TURNER_CACHE_BYTES.
+ */
 #ifndef TURNER_GPU_CACHE_H
 #define TURNER_GPU_CACHE_H
 
@@ -24,7 +25,8 @@ struct turner_cache_part {
 };
 
 /* What was stored under the key, `count` parts that are taken as one, in order; the caller frees
- * *bytes. False when there is nothing of any use. `kind` is a word, part of the key. Thread-safe. */
+ * *bytes. False when there is nothing of any use. `kind` is a word, part of the key. Thread-safe.
+ */
 bool turner_cache_load(void **bytes, size_t *size, const char *kind,
                        const struct turner_cache_part *key, size_t count);
 

@@ -63,8 +63,7 @@ enum turner_result turner_compile_cached(struct turner_spirv *out, bool *found,
 
 enum turner_result turner_spirv_reduce_cached(struct turner_spirv *out, bool *found,
                                               const struct turner_spirv *spirv,
-                                              const struct turner_constant *constants,
-                                              size_t count)
+                                              const struct turner_constant *constants, size_t count)
 {
     char made_by[512];
     const struct turner_cache_part key[] = {

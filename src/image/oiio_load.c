@@ -37,7 +37,8 @@ const struct turner_oiio *turner_oiio_load(void)
     if (!loaded)
         turner_fail(TURNER_DEVICE,
                     "%s, which reads pictures and writes all but PNG and EXR, cannot be loaded: "
-                    "%s; install turner %s again", TURNER_OIIO_MODULE, reason, TURNER_VERSION);
+                    "%s; install turner %s again",
+                    TURNER_OIIO_MODULE, reason, TURNER_VERSION);
     return loaded;
 }
 

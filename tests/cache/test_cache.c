@@ -80,8 +80,8 @@ static bool found(const char *key, const char *content)
 {
     void *bytes = NULL;
     size_t size = 0;
-    bool loaded = turner_cache_load(&bytes, &size, "kind",
-                                    &(struct turner_cache_part){key, strlen(key)}, 1);
+    bool loaded =
+        turner_cache_load(&bytes, &size, "kind", &(struct turner_cache_part){key, strlen(key)}, 1);
     if (loaded) {
         assert_int_equal(size, strlen(content));
         assert_memory_equal(bytes, content, size);
@@ -271,10 +271,9 @@ static void the_oldest_go(void **state)
     assert_int_equal(got, size);
     free(bytes);
     /* one that is too large is not kept at all */
-    turner_cache_store(content, size, "kind",
-                       &(struct turner_cache_part){content, size}, 1);
-    assert_false(turner_cache_load(&bytes, &got, "kind",
-                                   &(struct turner_cache_part){content, size}, 1));
+    turner_cache_store(content, size, "kind", &(struct turner_cache_part){content, size}, 1);
+    assert_false(
+        turner_cache_load(&bytes, &got, "kind", &(struct turner_cache_part){content, size}, 1));
     free(content);
     empty(entries);
 }

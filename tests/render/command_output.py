@@ -82,6 +82,10 @@ def stats():
             "parse", "build", "compile", "upload", "trace", "read_back", "write")), "seconds"
         assert seconds["parse"] > 0 and seconds["trace"] > 0 and seconds["write"] > 0, "seconds"
         assert reference or seconds["compile"] > 0 and seconds["upload"] > 0, "seconds"
+        assert seconds["start"] > 0, "seconds"
+        assert seconds["whole"] > seconds["start"] + seconds["trace"] + seconds["write"], "seconds"
+        assert sorted(s["cached"]) == ["kernel", "source"], "cached"
+        assert not (reference and any(s["cached"].values())), "nothing to compile"
         assert s["peak_bytes"]["host"] > 1e6, "peak_bytes.host"
         assert reference or s["peak_bytes"]["device"] > 40 * 30 * 16, "peak_bytes.device"
         if not reference:
