@@ -7,12 +7,14 @@
 #include "render/estimate.h"
 #include "render/follow.h"
 #include "render/layers.h"
+#include "render/surroundings.h"
 #include "render/tally.h"
 
 #define EDGE_MAX 128              /* of a tile, in pixels */
 #define TILE_SAMPLES (1 << 22)    /* that a tile may come to take, where pixels take the most */
 #define LEVEL_MAX 12
-#define FIRST_CELLS 16           /* that a pixel is divided into at least, for an error */
+#define FIRST_ROUNDS 2            /* of divisions, that every pixel goes through for an error */
+#define FIRST_CELLS 16            /* they lead to */
 #define FLOAT_BITS 24
 #define SPACINGS_LEAST 16        /* of floats, along the edge of a cell that is divided */
 #define SPLIT_SHARE 0.25f         /* of the most that a cell of the pixel adds */
@@ -30,10 +32,6 @@ struct picture {
     double samples; /* sum over pixels */
     struct turner_scale scale; /* where an error is asked for */
     float *errors;  /* the same, or NULL: the estimate of each pixel */
-};
-
-struct tile {
-    int x, y, width, height;
 };
 
 bool turner_adaptive_wanted(const struct turner_settings *settings)
@@ -182,26 +180,32 @@ static void finish_counts(const struct picture *picture, const struct turner_pat
 }
 
 /* Neighbours in the list are neighbours in the picture: along a Morton curve of 8×8 pixels. */
-static void begin_block(struct picture *picture, struct tile tile, int x, int y)
+static void begin_block(struct picture *picture, struct turner_tile tile, int x, int y)
 {
     for (int i = 0; i < 64; i++) {
         int px = x + ((i & 1) | (i >> 1 & 2) | (i >> 2 & 4));
         int py = y + ((i >> 1 & 1) | (i >> 2 & 2) | (i >> 3 & 4));
-        if (px < tile.x + tile.width && py < tile.y + tile.height)
+        if (turner_tile_has(&tile, px, py))
             turner_cells_begin(&picture->cells, px, py);
     }
 }
 
-/* Two pixels around the tile, be they in the picture or not. */
-static void begin_border(struct picture *picture, struct tile tile)
+/* The pixels of the tile and so many around it, be they in the picture or not; of one more, the
+ * first samples. */
+static void begin(struct picture *picture, struct turner_tile tile, int around)
 {
     struct turner_cell cell;
-    for (int y = tile.y - 2; y < tile.y + tile.height + 2; y++) {
-        bool between = y >= tile.y && y < tile.y + tile.height;
-        for (int x = tile.x - 2; x < tile.x + tile.width + 2; x++) {
-            if (between && x == tile.x)
-                x += tile.width;
-            turner_cells_first(&cell, &picture->lattice, x, y);
+    picture->cells.patch_count = picture->cells.cell_count = 0;
+    tile = (struct turner_tile){tile.x - around, tile.y - around, tile.width + 2 * around,
+                                tile.height + 2 * around};
+    for (int y = tile.y; y < tile.y + tile.height; y += 8) {
+        for (int x = tile.x; x < tile.x + tile.width; x += 8)
+            begin_block(picture, tile, x, y);
+    }
+    for (int y = tile.y - 1; around && y <= tile.y + tile.height; y++) {
+        for (int x = tile.x - 1; x <= tile.x + tile.width; x++) {
+            if (!turner_tile_has(&tile, x, y))
+                turner_cells_first(&cell, &picture->lattice, x, y);
         }
     }
 }
@@ -221,80 +225,38 @@ static bool mark(struct picture *picture, const struct turner_patch *patch, floa
     return any;
 }
 
-/* The most that a sample in the 3×3 pixels is off from what accurate methods find there. */
-static float approximation_around(struct turner_lattice *lattice, const float (*accurate)[4], int x,
-                                  int y)
-{
-    struct turner_cell cell;
-    float most = 0;
-    for (int i = 0; i < 9; i++) {
-        turner_cells_first(&cell, lattice, x + i % 3 - 1, y + i / 3 - 1);
-        for (int k = 0; k < TURNER_CELL_SAMPLES; k++) {
-            uint32_t sample = k < 4 ? cell.corner[k] : cell.center;
-            for (int c = 0; c < 3; c++)
-                most = fmaxf(most, fabsf(lattice->values[sample][c] - accurate[sample][c]));
-        }
-    }
-    return most;
-}
-
-/* Traces all samples there are again by accurate methods. */
-static enum turner_result find_approximations(struct picture *picture)
-{
-    struct turner_cells *cells = &picture->cells;
-    struct turner_lattice accurate = picture->lattice; /* the same places */
-    double unused;
-    accurate.counted = false;
-    accurate.traced = 0;
-    accurate.values = turner_calloc(accurate.count, sizeof *accurate.values);
-    enum turner_result result = turner_follow(&accurate, picture->renderer->accurate,
-                                              picture->scale.bound, &unused);
-    for (size_t i = 0; i < cells->patch_count && result == TURNER_OK; i++) {
-        struct turner_patch *patch = &cells->patches[i];
-        patch->around.methods = approximation_around(
-            &picture->lattice, (const float(*)[4])accurate.values, patch->x, patch->y);
-    }
-    free(accurate.values);
-    return result;
-}
-
-/* What can be told of the pixels from their first cells. */
-static enum turner_result look_around(struct picture *picture)
+/* Those around the tile are there to be looked at. */
+static void finish_round(struct picture *picture, const struct turner_tile *tile)
 {
     struct turner_cells *cells = &picture->cells;
     for (size_t i = 0; i < cells->patch_count; i++) {
-        struct turner_patch *patch = &cells->patches[i];
-        patch->around = turner_surroundings_of(&picture->lattice, patch->x, patch->y);
+        const struct turner_patch *patch = &cells->patches[i];
+        float error;
+        bool within = turner_tile_has(tile, patch->x, patch->y);
+        if ((!within && patch->count == FIRST_CELLS) || mark(picture, patch, &error))
+            continue;
+        finish(picture, patch, error);
+        if (picture->lattice.counted)
+            finish_counts(picture, patch);
     }
-    return picture->renderer->accurate ? find_approximations(picture) : TURNER_OK;
+    turner_cells_divide(cells);
 }
 
-static enum turner_result draw_tile(struct picture *picture, struct tile tile)
+static enum turner_result draw_tile(struct picture *picture, struct turner_tile tile)
 {
+    struct turner_renderer *renderer = picture->renderer;
     struct turner_cells *cells = &picture->cells;
+    bool on_demand = renderer->settings.error > 0;
     turner_lattice_clear(&picture->lattice);
-    cells->patch_count = cells->cell_count = 0;
-    for (int y = tile.y; y < tile.y + tile.height; y += 8) {
-        for (int x = tile.x; x < tile.x + tile.width; x += 8)
-            begin_block(picture, tile, x, y);
-    }
-    bool on_demand = picture->renderer->settings.error > 0;
-    if (on_demand)
-        begin_border(picture, tile);
-    for (bool first = true; cells->patch_count; first = false) {
-        TURNER_TRY(turner_follow(&picture->lattice, picture->renderer, picture->scale.bound,
+    begin(picture, tile, on_demand ? 1 : 0);
+    for (int round = 0; cells->patch_count; round++) {
+        TURNER_TRY(turner_follow(&picture->lattice, renderer, picture->scale.bound,
                                  &picture->statistics->cutoff_least));
-        if (first && on_demand)
-            TURNER_TRY(look_around(picture));
-        for (size_t i = 0; i < cells->patch_count; i++) {
-            float error;
-            if (mark(picture, &cells->patches[i], &error))
-                continue;
-            finish(picture, &cells->patches[i], error);
-            if (picture->lattice.counted)
-                finish_counts(picture, &cells->patches[i]);
-        }
-        turner_cells_divide(cells);
+        if (on_demand && round == 0)
+            TURNER_TRY(turner_surroundings_first(cells, &tile, renderer, picture->scale.bound));
+        if (on_demand && round == FIRST_ROUNDS)
+            turner_surroundings_fine(cells, &tile);
+        finish_round(picture, &tile);
     }
     return TURNER_OK;
 }
@@ -345,7 +307,7 @@ static enum turner_result draw(struct picture *picture, const struct turner_rend
     double pixels = (double)image->width * image->height, done = 0;
     for (int y = 0; y < image->height; y += edge) {
         for (int x = 0; x < image->width; x += edge) {
-            struct tile tile = {x, y, edge, edge};
+            struct turner_tile tile = {x, y, edge, edge};
             if (tile.width > image->width - x)
                 tile.width = image->width - x;
             if (tile.height > image->height - y)

@@ -130,7 +130,9 @@ static void divide(struct turner_cells *cells, const struct turner_patch *patch,
         const float position[2] = {(float)((double)origin[0] + center[i][0]),
                                    (float)((double)origin[1] + center[i][1])};
         child->area = cell->area * share;
-        child->parent_bend = cell->bend * 4 * share;
+        child->older_bends[0] = cell->bend * 4 * share;
+        for (int k = 1; k < TURNER_CELL_PAST; k++)
+            child->older_bends[k] = cell->older_bends[k - 1] * 4 * share;
         child->center = turner_lattice_at(lattice, x + (i & 1) * half + quarter,
                                           y + (i >> 1) * half + quarter, position);
         *TURNER_PUSH(cells->next, cells->next_count, cells->next_capacity) = *child;

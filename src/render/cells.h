@@ -8,6 +8,7 @@
 #include "render/lattice.h"
 
 #define TURNER_CELL_SAMPLES 5 /* of one cell */
+#define TURNER_CELL_PAST 3 /* levels that a cell remembers */
 #define TURNER_CELL_SPLIT 8   /* that a division counts: four edges' middles, four centres */
 
 struct turner_cell {
@@ -21,16 +22,15 @@ struct turner_cell {
     bool split;         /* to be divided next */
     float measure;      /* for whoever decides */
     float bend;         /* how far the mean of the corners is from the centre (estimate.c) */
-    float parent_bend;  /* of the cell that it was part of, for the same area */
+    float older_bends[TURNER_CELL_PAST]; /* of the cell that it was part of, of what that was part
+                                            of …, for the same area; 0 where there was none */
 };
 
-/* Bends of pixels as one square. */
+/* What the pixels around tell of one (surroundings.h). Bends. */
 struct turner_surroundings {
-    float own;    /* of the pixel */
-    float most;   /* that it may have, going by those around */
-    float crowd;  /* that at least a few of the 5×5 pixels around it have */
-    float methods; /* what approximate methods change in a sample of it, at most */
-    float change; /* the median of their differences from the pixel's own */
+    float crowd;   /* of a pixel, that at least a few of the 5×5 pixels around it have */
+    float hidden;  /* of a cell of a quarter pixel, that may be there though none has it */
+    float methods; /* no bend: what approximate methods change in a sample, at most */
 };
 
 /* A pixel that is not finished. */

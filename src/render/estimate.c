@@ -3,22 +3,21 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define SMOOTH 0.8f      /* of the sum of bends; a smooth function is wrong by a sixth of it */
+#define SMOOTH 0.35f     /* of the sum of bends; a smooth function is wrong by a sixth of it */
 #define REST 0.05f       /* of bends that cancel */
 #define EDGE 2.0f        /* of bends that are independent; the root mean square of errors is 0.4 */
-#define LEAST 0.33f      /* of that, where a bend is little more than a smooth cell's */
-#define SHRINKS 0.35f    /* of its parent's bend: a smooth cell's is a quarter */
-#define EVEN 4.0f        /* times its own, that bends may reach around a smooth pixel */
-#define STEADY 0.7f      /* of its own, that bends around a smooth pixel may differ from it */
+#define LEAST 0.1f       /* of that, where bends shrink though less than in a smooth cell */
+#define SHRINKS 0.35f    /* to that of its parent's bend: a smooth cell's to a quarter */
+#define HALVES 0.48f     /* to about that: a kink's */
+#define STAYS 0.7f       /* at least that much: an edge's or disorder's */
 #define SAFETY 1.25f     /* what the truth goes beyond all this on one pixel of a thousand */
-#define HIDDEN 0.025f    /* of the bend suspected, that a cell of a quarter pixel may hide */
+#define HIDDEN 0.06f     /* of the bend suspected, that a cell of a quarter pixel may hide */
 #define HIDDEN_LEVEL 2
 #define LOOK 0.6f        /* of the bends in a crowd, that is worth a second look */
-#define CROWD_RANK 3     /* of the 24 pixels around, whose bend counts there */
-#define POOL 0.8f        /* of the estimates around a pixel, that its own is at least */
+#define POOL 0.7f        /* of the estimates around a pixel, that its own is at least */
 #define POOL_RANK 4      /* of the eight around */
-#define ROUNDING 6e-7f   /* of the radiance */
-#define ROUNDING_PLACE 4e-7f /* of the picture's size, that rounding moves a ray by */
+#define ROUNDING 4e-7f   /* of the radiance */
+#define ROUNDING_PLACE 2.5e-7f /* of the picture's size, that rounding moves a ray by */
 
 float turner_estimate_of_samples(const struct turner_estimate *estimate)
 {
@@ -31,8 +30,13 @@ float turner_estimate_total(const struct turner_estimate *estimate)
            estimate->rounding;
 }
 
-static void bend_of(float bend[3], const struct turner_lattice *lattice,
-                    const struct turner_cell *cell)
+static float largest(const float v[3])
+{
+    return fmaxf(fabsf(v[0]), fmaxf(fabsf(v[1]), fabsf(v[2])));
+}
+
+float turner_estimate_bend(float bend[3], const struct turner_lattice *lattice,
+                           const struct turner_cell *cell)
 {
     float(*const v)[4] = lattice->values;
     for (int c = 0; c < 3; c++) {
@@ -41,41 +45,6 @@ static void bend_of(float bend[3], const struct turner_lattice *lattice,
             corners += cell->weight[i] * v[cell->corner[i]][c];
         bend[c] = corners - v[cell->center][c];
     }
-}
-
-static float largest(const float v[3])
-{
-    return fmaxf(fabsf(v[0]), fmaxf(fabsf(v[1]), fabsf(v[2])));
-}
-
-/* ---- what is around a pixel ---- */
-
-static int compare_floats(const void *a, const void *b)
-{
-    float x = *(const float *)a, y = *(const float *)b;
-    return x < y ? -1 : x > y;
-}
-
-/* The bend of the square that stands on its corner, between the centres of two pixels and the ends
- * of the side they share. */
-static float bend_across(const struct turner_lattice *lattice, const struct turner_cell *a,
-                         const struct turner_cell *b, uint32_t end1, uint32_t end2)
-{
-    float(*const v)[4] = lattice->values;
-    float bend[3];
-    for (int c = 0; c < 3; c++)
-        bend[c] = 0.5f * ((v[a->center][c] + v[b->center][c]) - (v[end1][c] + v[end2][c]));
-    return largest(bend);
-}
-
-static const float zero[3];
-
-static float bend_at(const struct turner_lattice *lattice, const struct turner_cell *cell,
-                     const float less[3], float bend[3])
-{
-    bend_of(bend, lattice, cell);
-    for (int c = 0; c < 3; c++)
-        bend[c] -= less[c];
     return largest(bend);
 }
 
@@ -128,43 +97,6 @@ static float bend_beyond(const struct turner_lattice *lattice, const struct turn
     return most;
 }
 
-struct turner_surroundings turner_surroundings_of(struct turner_lattice *lattice, int x, int y)
-{
-    static const int ends[3][3][2] = {/* of the side shared with a neighbour */
-        {{0, 0}, {0, 1}, {0, 0}}, {{0, 2}, {0, 0}, {1, 3}}, {{0, 0}, {2, 3}, {0, 0}}};
-    struct turner_surroundings around = {0};
-    struct turner_cell cell, other;
-    float own[3], bend[3], bends[8], changes[8], all[24];
-    size_t count = 0, all_count = 0;
-    turner_cells_first(&cell, lattice, x, y);
-    around.own = around.most = bend_at(lattice, &cell, zero, own);
-    for (int dy = -2; dy <= 2; dy++) {
-        for (int dx = -2; dx <= 2; dx++) {
-            turner_cells_first(&other, lattice, x + dx, y + dy);
-            if (dx == 0 && dy == 0)
-                continue;
-            float other_bend = bend_at(lattice, &other, zero, bend);
-            all[all_count++] = other_bend;
-            if (abs(dx) > 1 || abs(dy) > 1)
-                continue;
-            bends[count] = other_bend;
-            changes[count++] = bend_at(lattice, &other, own, bend);
-            const int *end = ends[dy + 1][dx + 1];
-            if (dx == 0 || dy == 0)
-                around.most = fmaxf(around.most,
-                                    bend_across(lattice, &cell, &other, cell.corner[end[0]],
-                                                cell.corner[end[1]]));
-        }
-    }
-    qsort(bends, count, sizeof *bends, compare_floats);
-    qsort(changes, count, sizeof *changes, compare_floats);
-    qsort(all, all_count, sizeof *all, compare_floats);
-    around.change = changes[count / 2];
-    around.crowd = all[all_count - CROWD_RANK];
-    around.most = fmaxf(around.most, bends[count / 2]);
-    return around;
-}
-
 /* ---- the estimate ---- */
 
 /* The most that a channel changes from the centre to a corner. */
@@ -179,26 +111,38 @@ static float slope(const struct turner_lattice *lattice, const struct turner_cel
     return most;
 }
 
-/* Whether radiance goes on around the pixel as it does in it. */
-static bool is_even(const struct turner_surroundings *around)
+static float ratio(float a, float b)
 {
-    return around->most <= EVEN * around->own && around->change <= STEADY * around->own;
+    return b > 0 ? a / b : INFINITY;
 }
 
-/* 0 where radiance is smooth in the cell, 1 where its bend is as large as that of the cell it was part
- * of: an edge or disorder. */
+/* What is left of a bend from level to level: since the last division or, where that is less, in the
+ * mean of the last three. A kink that lies near the side of a cell is hardly in its bend, and the part
+ * with the kink has as much: only further back does it show that bends there halve. */
+static float left_of_bend(const struct turner_cell *cell)
+{
+    float left = ratio(cell->bend, cell->older_bends[0]);
+    if (cell->level == 2)
+        left = fminf(left, sqrtf(ratio(cell->bend, cell->older_bends[1])));
+    if (cell->level > 2)
+        left = fminf(left, cbrtf(ratio(cell->bend, cell->older_bends[2])));
+    return left;
+}
+
+/* 0 where radiance is smooth in the cell, 1 where bends do not shrink from level to level: an edge or
+ * disorder. */
 static float roughness(const struct turner_cell *cell)
 {
-    float smooth = SHRINKS * cell->parent_bend;
-    if (cell->bend <= smooth)
+    if (cell->bend <= SHRINKS * cell->older_bends[0])
         return 0;
-    return fminf(1, LEAST + (1 - LEAST) * (cell->bend - smooth) / (cell->parent_bend - smooth));
+    float more = (left_of_bend(cell) - HALVES) / (STAYS - HALVES);
+    return LEAST + (1 - LEAST) * fmaxf(0, fminf(1, more));
 }
 
 /* What no sample saw: a thing of half the size has an eighth of the chance. */
 static float hidden_in(int level, const struct turner_surroundings *around)
 {
-    return is_even(around) ? 0 : HIDDEN * around->most * ldexpf(1, 3 * (HIDDEN_LEVEL - level));
+    return HIDDEN * around->hidden * ldexpf(1, 3 * (HIDDEN_LEVEL - level));
 }
 
 static float look_in(int level, const struct turner_surroundings *around)
@@ -217,7 +161,8 @@ struct turner_estimate turner_estimate_pixel(const struct turner_cells *cells,
     for (size_t i = patch->first; i < patch->first + patch->count; i++) {
         struct turner_cell *cell = &cells->cells[i];
         float area = cell->area, bend[3];
-        cell->bend = fmaxf(bend_at(lattice, cell, zero, bend), bend_beyond(lattice, patch, cell));
+        cell->bend = fmaxf(turner_estimate_bend(bend, lattice, cell),
+                           bend_beyond(lattice, patch, cell));
         float part = area * cell->bend;
         for (int c = 0; c < 3; c++)
             sum[c] += area * bend[c];
@@ -239,6 +184,12 @@ struct turner_estimate turner_estimate_pixel(const struct turner_cells *cells,
     e.methods = SAFETY * around->methods;
     e.rounding = ROUNDING * largest(value) + ROUNDING_PLACE * scale->size * place;
     return e;
+}
+
+static int compare_floats(const void *a, const void *b)
+{
+    float x = *(const float *)a, y = *(const float *)b;
+    return x < y ? -1 : x > y;
 }
 
 void turner_estimate_pool(float *pooled, const float *errors, int width, int height)

@@ -20,8 +20,9 @@ float turner_estimate_of_samples(const struct turner_estimate *estimate);
 
 float turner_estimate_total(const struct turner_estimate *estimate);
 
-/* What is around the pixel; the first cells of the 5×5 pixels around it are traced. */
-struct turner_surroundings turner_surroundings_of(struct turner_lattice *lattice, int x, int y);
+/* How far the weighted mean of a cell's corners is from its centre, each channel, and the most. */
+float turner_estimate_bend(float bend[3], const struct turner_lattice *lattice,
+                           const struct turner_cell *cell);
 
 /* Of a whole picture. */
 struct turner_scale {
