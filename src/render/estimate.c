@@ -3,21 +3,21 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define SMOOTH 0.35f     /* of the sum of bends; a smooth function is wrong by a sixth of it */
-#define REST 0.05f       /* of bends that cancel */
+#define SMOOTH 0.5f      /* of the sum of bends; a smooth function is wrong by a sixth of it */
+#define REST 0.03f       /* of bends that cancel */
 #define EDGE 2.0f        /* of bends that are independent; the root mean square of errors is 0.4 */
-#define LEAST 0.1f       /* of that, where bends shrink though less than in a smooth cell */
+#define LEAST 0.05f      /* of that, where bends shrink though less than in a smooth cell */
 #define SHRINKS 0.35f    /* to that of its parent's bend: a smooth cell's to a quarter */
 #define HALVES 0.48f     /* to about that: a kink's */
 #define STAYS 0.7f       /* at least that much: an edge's or disorder's */
-#define SAFETY 1.25f     /* what the truth goes beyond all this on one pixel of a thousand */
-#define HIDDEN 0.06f     /* of the bend suspected, that a cell of a quarter pixel may hide */
+#define SAFETY 1.3f      /* what the truth goes beyond all this on one pixel of a thousand */
+#define HIDDEN 0.05f     /* of the bend suspected, that a cell of a quarter pixel may hide */
 #define HIDDEN_LEVEL 2
 #define LOOK 0.6f        /* of the bends in a crowd, that is worth a second look */
-#define POOL 0.7f        /* of the estimates around a pixel, that its own is at least */
+#define POOL 0.5f        /* of the estimates around a pixel, that its own is at least */
 #define POOL_RANK 4      /* of the eight around */
-#define ROUNDING 4e-7f   /* of the radiance */
-#define ROUNDING_PLACE 2.5e-7f /* of the picture's size, that rounding moves a ray by */
+#define ROUNDING 9e-7f   /* of the radiance */
+#define ROUNDING_PLACE 4e-7f /* of the picture's size, that rounding moves a ray by */
 
 float turner_estimate_of_samples(const struct turner_estimate *estimate)
 {
