@@ -27,7 +27,7 @@ function(turner_error_test test scene share tight)
     set_tests_properties(${test} PROPERTIES SKIP_RETURN_CODE 77 LABELS device
         ENVIRONMENT "TURNER_VALIDATION=1;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/${test}")
 endfunction()
-foreach(name IN ITEMS metals fresnel phong_terms lights attenuation underwater mesh prism)
+foreach(name IN ITEMS mirrors fresnel phong_terms lights attenuation underwater mesh prism)
     turner_error_test(error_${name} ${name} 0.999 10)
 endforeach()
 turner_error_test(error_of_schlick fresnel 0.999 10 --method fresnel=schlick)
