@@ -7,7 +7,9 @@
 #include "base/parallel.h"
 #include "bvh/subtree.h"
 
-#define BLOCK 8192 /* items of a range that one thread takes at once */
+#define BLOCK 8192    /* items of a range that one thread takes at once */
+#define SUBTREE 16384 /* ranges of at most so many items are built by one thread, */
+#define SUBTREES 32   /* or of at most one in so many: threads wait for each other at each level */
 
 struct block {
     uint32_t part;         /* index of the range */
@@ -32,6 +34,7 @@ struct part {
 
 struct top {
     struct turner_builder builder;
+    uint32_t subtree;   /* largest range that one thread builds */
     struct part *parts; /* level after level */
     size_t part_count, part_capacity;
     struct block *blocks;
@@ -75,7 +78,7 @@ static void make_blocks(struct top *top, size_t first, size_t end)
     for (size_t i = first; i < end; i++) {
         struct part *part = &top->parts[i];
         uint32_t count = part->range.count;
-        if (count <= TURNER_BVH_SUBTREE)
+        if (count <= top->subtree)
             continue;
         part->grid = turner_grid_of(&part->range);
         for (uint32_t k = 0; k < turner_pieces(count, BLOCK); k++) {
@@ -194,25 +197,22 @@ static size_t move_parts(struct top *top, uint32_t index, size_t place)
     return place;
 }
 
-static void renumber_subtree(void *user, uint32_t i)
+static void move_subtree(struct turner_gpu_node *nodes, const struct part *part)
 {
-    struct top *top = user;
-    const struct part *part = &top->parts[top->subtrees[i]];
     uint32_t distance = (uint32_t)(part->place - part->moved);
-    struct turner_gpu_node *nodes = &top->builder.nodes[part->place];
-    for (uint32_t node = 0; distance > 0 && node < part->tree.nodes; node++) {
+    for (size_t i = 0; distance > 0 && i < part->tree.nodes; i++) {
+        struct turner_gpu_node *node = &nodes[part->moved + i];
+        *node = nodes[part->place + i];
         for (int side = 0; side < 2; side++)
-            nodes[node].child[side] -= nodes[node].count[side] ? 0 : distance;
+            node->child[side] -= node->count[side] ? 0 : distance;
     }
 }
 
 static void write_top(struct top *top)
 {
     struct turner_gpu_node *nodes = top->builder.nodes;
-    for (uint32_t i = 0; i < top->subtree_count; i++) {
-        const struct part *part = &top->parts[top->subtrees[i]];
-        memmove(&nodes[part->moved], &nodes[part->place], part->tree.nodes * sizeof *nodes);
-    }
+    for (uint32_t i = 0; i < top->subtree_count; i++)
+        move_subtree(nodes, &top->parts[top->subtrees[i]]);
     for (size_t i = 0; i < top->part_count; i++) {
         const struct part *part = &top->parts[i];
         for (int side = 0; part->children && side < 2; side++) {
@@ -229,7 +229,8 @@ uint32_t turner_bvh_build(struct turner_gpu_node *nodes, size_t *node_count,
                           struct turner_bvh_item *items, struct turner_bvh_item *spare,
                           uint32_t count, uint32_t leaf, uint32_t first)
 {
-    struct top top = {.builder = {nodes, {items, spare}, leaf, first}};
+    struct top top = {.builder = {nodes, {items, spare}, leaf, first},
+                      .subtree = count / SUBTREES > SUBTREE ? count / SUBTREES : SUBTREE};
     struct part root = {.range = {.count = count}};
     turner_range_measure(&root.range, items);
     *TURNER_PUSH(top.parts, top.part_count, top.part_capacity) = root;
@@ -238,7 +239,6 @@ uint32_t turner_bvh_build(struct turner_gpu_node *nodes, size_t *node_count,
     number_parts(&top, 0, *node_count);
     turner_parallel_for(top.subtree_count, build_subtree, &top);
     *node_count = move_parts(&top, 0, *node_count);
-    turner_parallel_for(top.subtree_count, renumber_subtree, &top);
     write_top(&top);
     uint32_t levels = top.parts[0].tree.levels;
     free(top.subtrees);

@@ -4,8 +4,6 @@
 
 #include "bvh/split.h"
 
-#define TURNER_BVH_SUBTREE 8192 /* items; larger ranges are divided by all threads together */
-
 /* Items that are divided lie in buffer[level & 1], level counting the nodes above them, and go to
  * the other; those of a leaf end in buffer[0]. */
 struct turner_builder {

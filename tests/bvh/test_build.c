@@ -107,8 +107,8 @@ static void test_threads(void **state)
     fill_random(items, count, 1);
     check_same(items, count, 4);
     check_same(items, count, 1);
-    check_same(items, 8193, 4); /* one level above the subtrees */
-    check_same(items, 8192, 4); /* none */
+    check_same(items, 16385, 4); /* one level above the subtrees */
+    check_same(items, 16384, 4); /* none */
     fill_points(items, count, 3, 0);
     check_same(items, count, 4);
     fill_points(items, count, -3e38f, 1e34f);
