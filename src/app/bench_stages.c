@@ -33,7 +33,7 @@ static enum turner_result use_cache(const char *folder, bool empty)
     snprintf(cache, sizeof cache, "%s/cache", folder);
     if (empty)
         remove_folder(cache);
-    if (setenv("MESA_SHADER_CACHE_DIR", cache, 1) != 0 || setenv("XDG_CACHE_HOME", cache, 1) != 0)
+    if (setenv("MESA_SHADER_CACHE_DIR", cache, 1) != 0 || setenv("TURNER_CACHE_DIR", cache, 1) != 0)
         return turner_fail(TURNER_DEVICE, "no memory for the environment");
     return TURNER_OK;
 }
@@ -52,7 +52,8 @@ static enum turner_result read_times(struct turner_bench *bench, struct turner_b
     snprintf(bench->driver, sizeof bench->driver, "%s", driver ? driver : "");
     stages->count = 0;
     for (cJSON *stage = seconds ? seconds->child : NULL; stage; stage = stage->next) {
-        if (stages->count == TURNER_BENCH_STAGES || !cJSON_IsNumber(stage))
+        bool sum = strcmp(stage->string, "whole") == 0; /* measured here, from outside */
+        if (stages->count == TURNER_BENCH_STAGES || !cJSON_IsNumber(stage) || sum)
             continue;
         snprintf(stages->names[stages->count], sizeof *stages->names, "%s", stage->string);
         sample[stages->count++] = stage->valuedouble;
