@@ -1,4 +1,7 @@
 /* What rounding to floats took from a flat scene, for kernels that compute in double. */
+#include <stdlib.h>
+
+#include "base/memory.h"
 #include "bvh/flat.h"
 
 static float rest_of(double exact, float rounded)
@@ -13,18 +16,25 @@ static void point_rest(float rest[3], struct turner_vec3 exact, const float roun
     rest[2] = rest_of(exact.z, rounded[2]);
 }
 
-/* Triangle `index` of the group is triangle *local of the returned mesh. */
-static const struct turner_mesh *mesh_of(const struct turner_group *group, uint32_t index,
-                                         uint32_t *local)
+/* Triangle `index` of the group is triangle *local of the returned mesh; firsts says which is the
+ * first of each mesh. */
+static const struct turner_mesh *mesh_of(const struct turner_group *group, const uint32_t *firsts,
+                                         uint32_t index, uint32_t *local)
 {
-    const struct turner_mesh *mesh = group->meshes;
-    while (index >= mesh->triangle_count)
-        index -= mesh++->triangle_count;
-    *local = index;
-    return mesh;
+    size_t low = 0, high = group->mesh_count; /* the last mesh that begins by then */
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (firsts[middle] <= index)
+            low = middle;
+        else
+            high = middle;
+    }
+    *local = index - firsts[low];
+    return &group->meshes[low];
 }
 
 static struct turner_gpu_primitive_rest primitive_rest(const struct turner_group *group,
+                                                       const uint32_t *firsts,
                                                        const struct turner_gpu_primitive *rounded)
 {
     struct turner_gpu_primitive_rest rest = {0};
@@ -44,7 +54,7 @@ static struct turner_gpu_primitive_rest primitive_rest(const struct turner_group
     }
     default: {
         uint32_t local;
-        const struct turner_mesh *mesh = mesh_of(group, index, &local);
+        const struct turner_mesh *mesh = mesh_of(group, firsts, index, &local);
         const uint32_t *corners = mesh->triangles[local];
         point_rest(rest.a, mesh->positions[corners[0]], rounded->a);
         point_rest(rest.b, mesh->positions[corners[1]], rounded->b);
@@ -59,9 +69,14 @@ void turner_flat_primitive_rests(struct turner_gpu_primitive_rest *rests,
 {
     size_t first = 0;
     for (size_t g = 0; g < scene->group_count; g++) {
-        size_t end = first + turner_group_primitive_count(&scene->groups[g]);
+        const struct turner_group *group = &scene->groups[g];
+        size_t end = first + turner_group_primitive_count(group);
+        uint32_t *firsts = turner_calloc(group->mesh_count + 1, sizeof *firsts);
+        for (size_t i = 0; i < group->mesh_count; i++)
+            firsts[i + 1] = firsts[i] + group->meshes[i].triangle_count;
         for (; first < end; first++)
-            rests[first] = primitive_rest(&scene->groups[g], &flat->primitives[first]);
+            rests[first] = primitive_rest(group, firsts, &flat->primitives[first]);
+        free(firsts);
     }
 }
 
