@@ -75,6 +75,15 @@ def main():
         tool(*small)
         row = rows()["POV-Ray"]
         assert float(row["seconds"]) > 0 and float(row["turner_by_it"]) > 0, row
+    # every primitive with its material, once
+    subprocess.run([TURNER, "export", "ten.nff", "--pov", "-o", "ten.pov", "-q"], check=True)
+    subprocess.run([sys.executable, "-B", os.path.join(TOOLS, "pov_to_pbrt.py"), "ten.nff",
+                    "ten.pov", "ten.pbrt", "--size", "40"], check=True)
+    text = pathlib.Path("ten.pbrt").read_text()
+    assert text.count('Shape "sphere"') == 10 and text.count('Shape "trianglemesh"') == 1, text
+    assert text.count('"rgb Kd" [0.5 0.45 0.35]') == 10 and text.count("LightSource") == 3, text
+    assert '"float radius" [0.16666' in text and '"integer maxdepth" [5]' in text, text
+
     tool("-o", "out", "what", status=2)
     tool("-o", "out", "--turner", "no/such/turner", status=2)
     pathlib.Path("broken.nff").write_text("v\nfrom 1")
