@@ -12,19 +12,19 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer wor
 };
 
 const uint LANES = 8u;
-const uint REGISTERS = BVH_STACK / LANES;
-const uint MOST_REGISTERS = 19u; // for trees of TURNER_BVH_MAX_LEVELS; those not needed fall away
+const uint BELOW = BVH_STACK / LANES; // registers put aside, at most
 const int MISSED = 0x7fffffff; // the key of a box that no lane meets; others are bits of floats
 const uint LEAF = TURNER_WIDE_LEAF;
 
-// Nodes and leaves that wait, nearest on top, one in each lane of each register. All lanes hold the
-// same `next` and `height`. At the bottom lies 0, the end of the walk. (To keep beside them where
-// they are entered, and drop those beyond what was found since, saves 2 to 8 % of the visits and
-// costs more.)
+// Nodes and leaves that wait, nearest on top, one in each lane of two registers; what lies deeper is
+// put aside, which few walks come to. All lanes hold the same `next`, `height` and `aside`. At the
+// bottom lies 0, the end of the walk. (To keep beside them where they are entered, and drop those
+// beyond what was found since, saves 2 to 8 % of the visits and costs more.)
 struct walk_t {
     uint next;
-    uint height;
-    uint waiting[MOST_REGISTERS];
+    uint height; // in the registers
+    uint aside;  // registers put aside
+    uint lower, upper;
 };
 
 uint lane()
@@ -34,23 +34,14 @@ uint lane()
 
 walk_t walk_from(uint root)
 {
-    walk_t walk;
-    walk.next = root;
-    walk.height = 1u;
-    for (uint r = 0u; r < REGISTERS; r++)
-        walk.waiting[r] = 0u;
-    return walk;
+    return walk_t(root, 1u, 0u, 0u, 0u);
 }
 
 uint top_of(walk_t walk)
 {
-    uint place = (walk.height - 1u) % LANES, holder = (walk.height - 1u) / LANES;
-    uint top = subgroupShuffle(walk.waiting[0], place);
-    for (uint r = 1u; r < REGISTERS; r++) {
-        uint there = subgroupShuffle(walk.waiting[r], place);
-        top = holder == r ? there : top;
-    }
-    return top;
+    uint place = (walk.height - 1u) % LANES;
+    uint a = subgroupShuffle(walk.lower, place), b = subgroupShuffle(walk.upper, place);
+    return walk.height > LANES ? b : a;
 }
 
 // Entry of any lane into each child of a node: lane i has that of child i % 4.
@@ -111,8 +102,8 @@ void visit(inout walk_t walk, boxes_ray_t ray, int t_max)
     uint turn = (lane() + 4u - met - walk.height) % LANES;
     uint next = nearest != MISSED ? subgroupShuffle(child, uint(nearest) & 3u) : top;
     child = subgroupShuffle(child, uint(subgroupShuffle(key, turn)) & 3u);
-    for (uint r = 0u; r < REGISTERS; r++)
-        walk.waiting[r] = lane() + r * LANES >= walk.height ? child : walk.waiting[r];
+    walk.lower = lane() >= walk.height ? child : walk.lower;
+    walk.upper = lane() + LANES >= walk.height ? child : walk.upper;
     walk.height += met - 1u;
     walk.next = next;
 }
@@ -155,12 +146,25 @@ void walk_group(inout search_t search, uint root, uint instance, uint override_m
     boxes_ray_t boxes = boxes_ray_of(origin, direction);
     shear_t shear = shear_of(direction);
     int t_max = t_max_of(search);
+    uint below[BELOW];
     walk_t walk = walk_from(root);
     uint visits = 0u;
     do {
-        do
+        do {
+            if (walk.height - 1u >= 2u * LANES - 4u) { // no room for four, or nothing there
+                if (walk.height == 0u) {
+                    walk.aside--;
+                    walk.lower = below[walk.aside];
+                    walk.height = LANES;
+                } else {
+                    below[walk.aside] = walk.lower;
+                    walk.aside++;
+                    walk.lower = walk.upper;
+                    walk.height -= LANES;
+                }
+            }
             visit(walk, boxes, t_max);
-        while (is_node(walk.next) && ++visits < scene.max_visits);
+        } while (is_node(walk.next) && ++visits < scene.max_visits);
         do {
             if (walk.next != 0u) {
                 uint index = walk.next & TURNER_WIDE_FIRST;
@@ -173,6 +177,11 @@ void walk_group(inout search_t search, uint root, uint instance, uint override_m
             }
             t_max = t_max_of(search);
             if (walk.next != 0u) {
+                if (walk.height == 0u) {
+                    walk.aside--;
+                    walk.lower = below[walk.aside];
+                    walk.height = LANES;
+                }
                 walk.next = goes_on(t_max >= 0) ? top_of(walk) : 0u; // all may be blocked
                 walk.height--;
             }
@@ -189,12 +198,25 @@ void traverse(inout search_t search, ray_t ray)
     }
     boxes_ray_t boxes = boxes_ray_of(ray.origin, ray.direction);
     int t_max = t_max_of(search);
+    uint below[BELOW];
     walk_t walk = walk_from(scene.root);
     uint visits = 0u;
     do {
-        do
+        do {
+            if (walk.height - 1u >= 2u * LANES - 4u) { // no room for four, or nothing there
+                if (walk.height == 0u) {
+                    walk.aside--;
+                    walk.lower = below[walk.aside];
+                    walk.height = LANES;
+                } else {
+                    below[walk.aside] = walk.lower;
+                    walk.aside++;
+                    walk.lower = walk.upper;
+                    walk.height -= LANES;
+                }
+            }
             visit(walk, boxes, t_max);
-        while (is_node(walk.next) && ++visits < scene.max_visits);
+        } while (is_node(walk.next) && ++visits < scene.max_visits);
         do {
             if (walk.next != 0u) {
                 uint instance = walk.next & TURNER_WIDE_FIRST;
@@ -206,6 +228,11 @@ void traverse(inout search_t search, ray_t ray)
             }
             t_max = t_max_of(search);
             if (walk.next != 0u) {
+                if (walk.height == 0u) {
+                    walk.aside--;
+                    walk.lower = below[walk.aside];
+                    walk.height = LANES;
+                }
                 walk.next = goes_on(t_max >= 0) ? top_of(walk) : 0u; // all may be blocked
                 walk.height--;
             }

@@ -2,7 +2,7 @@
 
 #include <assert.h>
 
-#define VISIT_COST 1.0 /* of a node (two boxes), in units of one primitive's test */
+#define VISIT_COST 0.5 /* of a node (two boxes), in units of one primitive's test */
 
 void turner_node_set(struct turner_gpu_node *node, int side, const struct turner_box4 *box,
                      uint32_t child, uint32_t count)
