@@ -12,7 +12,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer wor
 };
 
 const uint LANES = 8u;
-const uint BELOW = BVH_STACK / LANES; // registers put aside, at most
+const uint ASIDE = BVH_STACK / LANES; // registers put aside, at most
 const int MISSED = 0x7fffffff; // the key of a box that no lane meets; others are bits of floats
 const uint LEAF = TURNER_WIDE_LEAF;
 
@@ -23,18 +23,21 @@ const uint LEAF = TURNER_WIDE_LEAF;
 struct walk_t {
     uint next;
     uint height; // in the registers
-    uint aside;  // registers put aside
+    uint aside;  // where the next register is put aside
     uint lower, upper;
+    uint visits;
 };
+
+uint put_aside[2u * ASIDE]; // of groups, of the top level
 
 uint lane()
 {
     return gl_SubgroupInvocationID;
 }
 
-walk_t walk_from(uint root)
+walk_t walk_from(uint root, uint aside)
 {
-    return walk_t(root, 1u, 0u, 0u, 0u);
+    return walk_t(root, 1u, aside, 0u, 0u, 0u);
 }
 
 uint top_of(walk_t walk)
@@ -42,6 +45,88 @@ uint top_of(walk_t walk)
     uint place = (walk.height - 1u) % LANES;
     uint a = subgroupShuffle(walk.lower, place), b = subgroupShuffle(walk.upper, place);
     return walk.height > LANES ? b : a;
+}
+
+void take_back(inout walk_t walk)
+{
+    walk.aside--;
+    walk.lower = put_aside[walk.aside];
+    walk.height = LANES;
+}
+
+void make_room(inout walk_t walk)
+{
+    put_aside[walk.aside] = walk.lower;
+    walk.aside++;
+    walk.lower = walk.upper;
+    walk.height -= LANES;
+}
+
+// A packet of rays from one point whose directions have the same signs, as the camera's have, taken
+// as one: it meets what any of them meets, and perhaps more, for less than half of the work. (Rays
+// from several points would make it meet far more.) Lane 2a has what gives the entry along axis a,
+// lane 2a + 1 what gives the exit: the coordinate that rays start from and the reciprocals of their
+// directions that are farthest from each other. Lanes 6 and 7 enter and leave at all times.
+struct beam_t {
+    bool possible;
+    uint faces; // where each lane finds its own in a node: entries may be behind
+    float start, least, most;
+};
+
+float least_of_lanes(float v)
+{
+    v = min(v, subgroupShuffleXor(v, 1u));
+    v = min(v, subgroupShuffleXor(v, 2u));
+    return min(v, subgroupShuffleXor(v, 4u));
+}
+
+vec3 least_of_lanes(vec3 v)
+{
+    return vec3(least_of_lanes(v.x), least_of_lanes(v.y), least_of_lanes(v.z));
+}
+
+beam_t beam_of(boxes_ray_t ray, bool alive)
+{
+    const float far = 3e38;
+    beam_t beam;
+    vec3 start = vec3(subgroupBroadcast(ray.above.x, 0u), subgroupBroadcast(ray.above.y, 0u),
+                      subgroupBroadcast(ray.above.z, 0u));
+    beam.possible = !goes_on(alive && (ray.above != start || ray.below != start));
+    if (beam.possible) {
+        uvec3 negative = floatBitsToUint(ray.inverse) >> 31;
+        int signs = int(negative.x | negative.y << 1 | negative.z << 2);
+        int all = least_of_lanes(alive ? signs : 7);
+        beam.possible = all == ~least_of_lanes(alive ? ~signs : ~0);
+        vec3 least = least_of_lanes(alive ? ray.inverse : vec3(far));
+        vec3 most = -least_of_lanes(alive ? -ray.inverse : vec3(far));
+        uint axis = min(lane() >> 1, 2u);
+        bool leaving = (lane() & 1u) != 0u, turned = ((uint(all) >> axis) & 1u) != 0u;
+        float pad = leaving ? 1.000001 : 1.0; // that of enter_box(), and its rounding
+        beam.faces = lane() ^ uint(turned && lane() < 6u);
+        beam.start = lane() < 6u ? start[axis] : 0.0;
+        beam.least = lane() < 6u ? least[axis] * pad : leaving ? far : 0.0;
+        beam.most = lane() < 6u ? most[axis] * pad : leaving ? far : 0.0;
+    }
+    return beam;
+}
+
+// Entry of the beam into each child: lanes 2i have that of child i. Differences and products are
+// rounded in order, so that no ray enters before the beam or leaves after it.
+int enter_by_beam(vec4 planes, beam_t beam, int t_most)
+{
+    int w[4];
+    int complement = -int(lane() & 1u); // of exits, so that the greatest is wanted of both
+    for (uint i = 0u; i < 4u; i++) {
+        float way = (lane() < 6u ? planes[i] : 1.0) - beam.start;
+        w[i] = min(floatBitsToInt(way * beam.least) ^ complement,
+                   floatBitsToInt(way * beam.most) ^ complement);
+    }
+    bool second = (lane() & 2u) != 0u, upper = (lane() & 4u) != 0u;
+    int a = max(second ? w[1] : w[0], subgroupShuffleXor(second ? w[0] : w[1], 2u));
+    int b = max(second ? w[3] : w[2], subgroupShuffleXor(second ? w[2] : w[3], 2u));
+    int enter = max(upper ? b : a, subgroupShuffleXor(upper ? a : b, 4u));
+    int leave = ~subgroupShuffleXor(enter, 1u);
+    return enter <= min(leave, t_most) ? enter & ~3 | int(lane() >> 1) : MISSED;
 }
 
 // Entry of any lane into each child of a node: lane i has that of child i % 4.
@@ -71,24 +156,30 @@ void order(inout int a, inout int b)
     a = most;
 }
 
-// Puts the children of walk.next that a lane meets on the stack, and takes the nearest.
-void visit(inout walk_t walk, boxes_ray_t ray, int t_max)
+// Puts the children of walk.next that a lane meets on the stack, and takes the nearest. `by_beam` is
+// a constant: what is not asked for is not there.
+void visit(inout walk_t walk, boxes_ray_t ray, int t_max, bool by_beam, beam_t beam)
 {
     uvec2 word = unpackUint2x32(word_array(scene.nodes + uint64_t(walk.next) * 64ul).at[lane()]);
     // lanes 0 … 5 hold a side of an axis each, as bytes of a grid, 6 and 7 the children; those are
     // no floats: a processor stumbles over denormal numbers, whatever becomes of them
     float origin = uintBitsToFloat(subgroupShuffle(word.y, min(lane() & 6u, 4u)));
     float spacing = uintBitsToFloat(subgroupShuffle(word.y, min(lane() | 1u, 5u)));
-    vec4 planes = vec4((uvec4(word.x) >> uvec4(0u, 8u, 16u, 24u)) & 255u) * spacing + origin;
-    uint holder = 6u + ((lane() >> 1) & 1u);
+    uint faces = by_beam ? subgroupShuffle(word.x, beam.faces) : word.x;
+    vec4 planes = vec4((uvec4(faces) >> uvec4(0u, 8u, 16u, 24u)) & 255u) * spacing + origin;
+    // the child that this lane has
+    uint apart = by_beam ? 2u : 1u, place = by_beam ? lane() >> 1 : lane() & 3u;
+    uint holder = 6u + (place >> 1);
     uint even = subgroupShuffle(word.x, holder), odd = subgroupShuffle(word.y, holder);
-    uint child = (lane() & 1u) != 0u ? odd : even; // of child lane % 4
+    uint child = (place & 1u) != 0u ? odd : even;
 
     uint top = top_of(walk); // while the boxes are being met
-    int key = enter_children(planes, ray, t_max);
+    int key = by_beam ? enter_by_beam(planes, beam, t_max) : enter_children(planes, ray, t_max);
     key = child == 0u ? MISSED : key;
-    int k0 = subgroupBroadcast(key, 0u), k1 = subgroupBroadcast(key, 1u);
-    int k2 = subgroupBroadcast(key, 2u), k3 = subgroupBroadcast(key, 3u);
+    int k0 = subgroupBroadcast(key, 0u);
+    int k1 = by_beam ? subgroupBroadcast(key, 2u) : subgroupBroadcast(key, 1u);
+    int k2 = by_beam ? subgroupBroadcast(key, 4u) : subgroupBroadcast(key, 2u);
+    int k3 = by_beam ? subgroupBroadcast(key, 6u) : subgroupBroadcast(key, 3u);
     int nearest = min(min(k0, k1), min(k2, k3));
     uint met = uint(k0 != MISSED) + uint(k1 != MISSED) + uint(k2 != MISSED) + uint(k3 != MISSED);
     order(k0, k1);
@@ -100,16 +191,39 @@ void visit(inout walk_t walk, boxes_ray_t ray, int t_max)
 
     // those missed come first and would lie below walk.height, where nothing is written
     uint turn = (lane() + 4u - met - walk.height) % LANES;
-    uint next = nearest != MISSED ? subgroupShuffle(child, uint(nearest) & 3u) : top;
-    child = subgroupShuffle(child, uint(subgroupShuffle(key, turn)) & 3u);
+    uint first = subgroupShuffle(child, (uint(nearest) & 3u) * apart);
+    child = subgroupShuffle(child, (uint(subgroupShuffle(key, turn)) & 3u) * apart);
     walk.lower = lane() >= walk.height ? child : walk.lower;
     walk.upper = lane() + LANES >= walk.height ? child : walk.upper;
     walk.height += met - 1u;
-    walk.next = next;
+    walk.next = nearest != MISSED ? first : top;
 }
 
 bool is_node(uint entry) { return int(entry) > 0; }
 bool is_leaf(uint entry) { return int(entry) < 0; }
+
+// Down to a leaf, or the end.
+void walk_nodes(inout walk_t walk, boxes_ray_t ray, int t_max, bool by_beam, beam_t beam)
+{
+    do {
+        if (walk.height - 1u >= 2u * LANES - 4u) {
+            if (walk.height == 0u)
+                take_back(walk);
+            else
+                make_room(walk); // for four
+        }
+        visit(walk, ray, t_max, by_beam, beam);
+    } while (is_node(walk.next) && ++walk.visits < scene.max_visits);
+}
+
+// Takes what waits on top, after a leaf; the end, if all lanes are blocked.
+void take(inout walk_t walk, int t_max)
+{
+    if (walk.height == 0u)
+        take_back(walk);
+    walk.next = goes_on(t_max >= 0) ? top_of(walk) : 0u;
+    walk.height--;
+}
 
 // The primitive, read by six lanes for all.
 turner_gpu_primitive primitive_of_lanes(uint index)
@@ -146,25 +260,13 @@ void walk_group(inout search_t search, uint root, uint instance, uint override_m
     boxes_ray_t boxes = boxes_ray_of(origin, direction);
     shear_t shear = shear_of(direction);
     int t_max = t_max_of(search);
-    uint below[BELOW];
-    walk_t walk = walk_from(root);
-    uint visits = 0u;
+    beam_t beam = beam_of(boxes, t_max >= 0);
+    walk_t walk = walk_from(root, 0u);
     do {
-        do {
-            if (walk.height - 1u >= 2u * LANES - 4u) { // no room for four, or nothing there
-                if (walk.height == 0u) {
-                    walk.aside--;
-                    walk.lower = below[walk.aside];
-                    walk.height = LANES;
-                } else {
-                    below[walk.aside] = walk.lower;
-                    walk.aside++;
-                    walk.lower = walk.upper;
-                    walk.height -= LANES;
-                }
-            }
-            visit(walk, boxes, t_max);
-        } while (is_node(walk.next) && ++visits < scene.max_visits);
+        if (beam.possible)
+            walk_nodes(walk, boxes, ~least_of_lanes(~t_max), true, beam);
+        else
+            walk_nodes(walk, boxes, t_max, false, beam);
         do {
             if (walk.next != 0u) {
                 uint index = walk.next & TURNER_WIDE_FIRST;
@@ -176,17 +278,10 @@ void walk_group(inout search_t search, uint root, uint instance, uint override_m
                 } while (index < end);
             }
             t_max = t_max_of(search);
-            if (walk.next != 0u) {
-                if (walk.height == 0u) {
-                    walk.aside--;
-                    walk.lower = below[walk.aside];
-                    walk.height = LANES;
-                }
-                walk.next = goes_on(t_max >= 0) ? top_of(walk) : 0u; // all may be blocked
-                walk.height--;
-            }
+            if (walk.next != 0u)
+                take(walk, t_max);
         } while (is_leaf(walk.next));
-    } while (walk.next != 0u && ++visits < scene.max_visits);
+    } while (walk.next != 0u && ++walk.visits < scene.max_visits);
 }
 
 void traverse(inout search_t search, ray_t ray)
@@ -196,27 +291,12 @@ void traverse(inout search_t search, ray_t ray)
         walk_group(search, instances.at[0].root, 0u, TURNER_NO_INDEX, ray.origin, ray.direction);
         return;
     }
+    const beam_t none = beam_t(false, 0u, 0.0, 0.0, 0.0);
     boxes_ray_t boxes = boxes_ray_of(ray.origin, ray.direction);
     int t_max = t_max_of(search);
-    uint below[BELOW];
-    walk_t walk = walk_from(scene.root);
-    uint visits = 0u;
+    walk_t walk = walk_from(scene.root, ASIDE);
     do {
-        do {
-            if (walk.height - 1u >= 2u * LANES - 4u) { // no room for four, or nothing there
-                if (walk.height == 0u) {
-                    walk.aside--;
-                    walk.lower = below[walk.aside];
-                    walk.height = LANES;
-                } else {
-                    below[walk.aside] = walk.lower;
-                    walk.aside++;
-                    walk.lower = walk.upper;
-                    walk.height -= LANES;
-                }
-            }
-            visit(walk, boxes, t_max);
-        } while (is_node(walk.next) && ++visits < scene.max_visits);
+        walk_nodes(walk, boxes, t_max, false, none);
         do {
             if (walk.next != 0u) {
                 uint instance = walk.next & TURNER_WIDE_FIRST;
@@ -227,15 +307,8 @@ void traverse(inout search_t search, ray_t ray)
                            transform_vector(to_group, ray.direction));
             }
             t_max = t_max_of(search);
-            if (walk.next != 0u) {
-                if (walk.height == 0u) {
-                    walk.aside--;
-                    walk.lower = below[walk.aside];
-                    walk.height = LANES;
-                }
-                walk.next = goes_on(t_max >= 0) ? top_of(walk) : 0u; // all may be blocked
-                walk.height--;
-            }
+            if (walk.next != 0u)
+                take(walk, t_max);
         } while (is_leaf(walk.next));
-    } while (walk.next != 0u && ++visits < scene.max_visits);
+    } while (walk.next != 0u && ++walk.visits < scene.max_visits);
 }
