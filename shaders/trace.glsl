@@ -1,5 +1,6 @@
-// One ray against the whole scene; with t_max −1 it meets nothing. There is a single call of trace() in the kernel: the traversal
-// is inlined where it is called, and the ray-query kind keeps a stack for each place.
+// One ray against the whole scene; with t_max −1 it meets nothing. There is a single call of trace()
+// in the kernel: the traversal is inlined where it is called, and the ray-query kind keeps a stack
+// for each place.
 //
 // For shadow rays the walk may end at the first opaque surface; of transmissive ones the nearest
 // is kept. `blocked` says that an opaque one was met.
