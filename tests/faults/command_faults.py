@@ -35,7 +35,7 @@ render_fault("shading", '--shading takes one of phong, energy_conserving, not "f
 render_fault("shadows", '--shadows takes one of opaque, tinted, not "soft"', "--shadows", "soft")
 render_fault("transfer", '--transfer takes one of srgb, linear, not "gamma"',
              "--transfer", "gamma")
-render_fault("traversal", '--traversal takes one of auto, bvh, ray_query, not "fast"',
+render_fault("traversal", '--traversal takes one of auto, bvh, ray_query, bvh_lane, bvh_packet, not "fast"',
              "--traversal", "fast")
 render_fault("unknown", 'option "--sise=1x1" is unknown or lacks its value; see turner render '
              "--help", "--sise=1x1")
