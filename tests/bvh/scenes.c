@@ -169,3 +169,20 @@ struct turner_affine make_transform(double scale, struct turner_vec3 translation
     }
     return transform;
 }
+
+struct turner_scene *make_random_scene(uint64_t *random)
+{
+    struct turner_scene *scene = make_scene();
+    int groups = (int)(random_bits(random) % 4), size = 1 << (random_bits(random) % 12);
+    for (int g = 0; g <= groups; g++) {
+        uint32_t index = g ? add_group(scene) : 0;
+        fill_group(&scene->groups[index], random, (int)(random_bits(random) % (uint64_t)size),
+                   (int)(random_bits(random) % (uint64_t)size),
+                   (int)(random_bits(random) % (uint64_t)size));
+        for (int k = 0; index > 0 && k < g * 9; k++)
+            add_instance(scene, index, TURNER_NONE,
+                         make_transform(pow(10, random_in(random, -3, 3)),
+                                        random_point(random, -100, 100)));
+    }
+    return scene;
+}

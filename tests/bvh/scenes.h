@@ -31,4 +31,7 @@ void add_flake(struct turner_group *group, struct turner_vec3 center, double rad
 /* rotation about a skew axis, uniform scale (may be negative), translation */
 struct turner_affine make_transform(double scale, struct turner_vec3 translation);
 
+/* Up to four groups of primitives of all kinds, at most 2,047 of each, instanced at all sizes. */
+struct turner_scene *make_random_scene(uint64_t *random);
+
 #endif
