@@ -263,6 +263,8 @@ TURNER_STRUCT(turner_gpu_scene)
     uint light_count;
     uint max_depth;
     uint max_steps;     /* rays traced for one sample, at most */
+    uint max_sent;      /* reflected and refracted rays are followed no more after so many rays of
+                           a sample; what that cuts counts as pruned */
     uint max_visits;    /* nodes visited by one ray, at most */
     uint max_crossings; /* surfaces one shadow ray passes, at most */
     uint shading;       /* TURNER_NEEDS_PHONG or TURNER_NEEDS_CONSERVING */

@@ -107,10 +107,10 @@ secondary_t secondary_rays(turner_gpu_material material, bool transmissive, real
 }
 
 // Whether a ray is to be followed; if not, what is cut goes to `pruned`.
-bool follow(vec3 weight, uint depth, bool always, inout float pruned)
+bool follow(vec3 weight, uint depth, uint turn, bool always, inout float pruned)
 {
     float w = largest(weight);
-    if (depth > scene.max_depth || w < scene.cutoff) {
+    if (depth > scene.max_depth || w < scene.cutoff || turn >= scene.max_sent) {
         pruned += w;
         return false;
     }
@@ -256,7 +256,7 @@ vec4 whitted(ray_t camera, bool busy, inout turner_gpu_counters counts)
                 bool spd = scene.spd_rays != 0u;
                 bool spd_r = spd && (met.surface.transmissive || sent.w_r != vec3(0.0));
                 bool spd_t = spd && sent.w_t != vec3(0.0);
-                if (follow(weight * sent.w_r, depth, spd_r, pruned)) {
+                if (follow(weight * sent.w_r, depth, turn, spd_r, pruned)) {
                     next = path_t(spawn_ray(met.surface, sent.reflected, INFINITY),
                                   weight * sent.w_r, depth, met.crossing.before);
                     has_next = true;
@@ -266,7 +266,7 @@ vec4 whitted(ray_t camera, bool busy, inout turner_gpu_counters counts)
                         counts.low[TURNER_COUNT_TIR]++;
                 }
                 if (NEEDS_ANY(TURNER_NEEDS_TRANSMISSION) &&
-                    follow(weight * sent.w_t, depth, spd_t, pruned)) {
+                    follow(weight * sent.w_t, depth, turn, spd_t, pruned)) {
                     path_t beyond = path_t(spawn_ray(met.surface, sent.refracted, INFINITY),
                                            weight * sent.w_t, depth, met.crossing.after);
                     RECORD(record_flag(recorded_surface, TURNER_RECORD_REFRACTS));

@@ -121,8 +121,8 @@ static float mark_by_error(const struct picture *picture, const struct turner_pa
     }
     /* what sampling may take; more samples do not help against the rest */
     float asked = (float)picture->renderer->settings.error;
-    float left = fmaxf(asked - estimate.cut - estimate.methods - estimate.rounding,
-                       SAMPLING_LEAST * asked);
+    float rest = estimate.cut + estimate.methods + estimate.rounding;
+    float left = fmaxf(asked - rest, SAMPLING_LEAST * fmaxf(asked, rest));
     bool first = patch->count < FIRST_CELLS;
     if (!first && fmaxf(turner_estimate_of_samples(&estimate), estimate.look) <= left)
         return total;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "render/follow.h"
 
 static const char *const array_names[TURNER_ARRAYS] = {
     "BVH nodes", "primitives", "instances", "primitives", "instances", "planes", "triangle corners",
@@ -276,6 +277,7 @@ static enum turner_result upload_scene(struct turner_device_scene *device, struc
         .light_count = (uint32_t)scene->light_count,
         .max_depth = (uint32_t)settings->depth,
         .max_steps = needs->max_steps,
+        .max_sent = settings->error > 0 ? TURNER_ERROR_RAYS : UINT32_MAX,
         .max_visits = max_visits(flat, ray_query),
         .max_crossings = needs->max_crossings,
         .shading = settings->shading == TURNER_SHADING_PHONG ? TURNER_NEEDS_PHONG

@@ -10,6 +10,7 @@
 #define CUTOFF_STEP 8
 #define CUTOFF_LEAST 1e-7
 #define GRID 4            /* pixels between samples of the coarse grid */
+#define RAYS_MEAN_MAX 256 /* of a sample of the grid; bubbles in bubbles take 8 */
 
 void turner_follow_settings(struct turner_settings *settings, bool branches)
 {
@@ -46,6 +47,17 @@ float turner_follow_glow(const struct turner_scene *scene)
     return most;
 }
 
+static double rays_so_far(const struct turner_renderer *renderer)
+{
+    const struct turner_gpu_counters *counters = renderer->counters.mapped;
+    static const int kinds[] = {TURNER_COUNT_CAMERA, TURNER_COUNT_REFLECTED,
+                                TURNER_COUNT_REFRACTED, TURNER_COUNT_SHADOW};
+    double rays = 0;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        rays += counters->low[kinds[i]] + ldexp(counters->high[kinds[i]], 32);
+    return rays;
+}
+
 enum turner_result turner_follow_bound(float *bound, struct turner_renderer *renderer)
 {
     const struct turner_settings *settings = &renderer->settings;
@@ -53,6 +65,7 @@ enum turner_result turner_follow_bound(float *bound, struct turner_renderer *ren
     size_t rows = (size_t)(settings->height + GRID - 1) / GRID;
     float(*positions)[2] = turner_calloc(columns * rows, sizeof *positions);
     float(*values)[4] = turner_calloc(columns * rows, sizeof *values);
+    double before = rays_so_far(renderer);
     enum turner_result result;
     for (size_t i = 0; i < columns * rows; i++) {
         positions[i][0] = (float)(i % columns * GRID) + 0.5f * GRID;
@@ -60,6 +73,13 @@ enum turner_result turner_follow_bound(float *bound, struct turner_renderer *ren
     }
     TURNER_TRY_DONE(turner_renderer_trace(renderer, settings->depth, settings->cutoff,
                                           (const float(*)[2])positions, columns * rows, values));
+    double mean = (rays_so_far(renderer) - before) / (double)(columns * rows);
+    if (mean > RAYS_MEAN_MAX)
+        TURNER_TRY_DONE(turner_fail(
+            TURNER_USAGE, "an error cannot be asked for here: a sample takes %.0f rays on average, "
+            "cut short, before their weights fall to %g; give --spp, --depth and --cutoff instead, "
+            "or materials whose rays lose weight (--method fresnel=exact)", mean,
+            settings->cutoff));
     *bound = renderer->glow;
     for (size_t i = 0; i < columns * rows; i++) {
         for (int c = 0; c < 3; c++)
@@ -93,6 +113,23 @@ static void select_unfinished(struct selection *selection, const struct turner_l
     selection->count = kept;
 }
 
+/* What was traced again into the lattice. Keeps those that lost less than before: the others ran out
+ * of rays, and a lower cutoff does not help. */
+static void take_over(struct selection *selection, struct turner_lattice *lattice)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < selection->count; i++) {
+        size_t index = selection->indices[i];
+        bool helped = selection->values[i][3] < lattice->values[index][3];
+        memcpy(lattice->values[index], selection->values[i], sizeof *selection->values);
+        if (selection->counts)
+            lattice->counts[index] = selection->counts[i];
+        if (helped)
+            selection->indices[kept++] = index;
+    }
+    selection->count = kept;
+}
+
 /* Traces again what lost more than `limit`, with ever lower cutoffs. */
 static enum turner_result follow_further(struct turner_lattice *lattice,
                                          struct turner_renderer *renderer, float limit,
@@ -122,12 +159,7 @@ static enum turner_result follow_further(struct turner_lattice *lattice,
         TURNER_TRY_DONE(turner_renderer_trace_counted(
             renderer, settings->depth, cutoff, (const float(*)[2])selection.positions,
             selection.count, selection.values, selection.counts));
-        for (size_t i = 0; i < selection.count; i++) {
-            memcpy(lattice->values[selection.indices[i]], selection.values[i],
-                   sizeof *selection.values);
-            if (selection.counts)
-                lattice->counts[selection.indices[i]] = selection.counts[i];
-        }
+        take_over(&selection, lattice);
     }
 done:
     free(selection.indices);

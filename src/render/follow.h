@@ -5,6 +5,7 @@
 #include "render/lattice.h"
 
 #define TURNER_ERROR_SAMPLES 4096 /* of a pixel, at most */
+#define TURNER_ERROR_RAYS 4096    /* of a sample, after which no more are sent on */
 
 /* Depth and first cutoff of a scene whose settings ask for an error. */
 void turner_follow_settings(struct turner_settings *settings, bool branches);
@@ -13,7 +14,8 @@ void turner_follow_settings(struct turner_settings *settings, bool branches);
 float turner_follow_glow(const struct turner_scene *scene);
 
 /* What a ray of weight 1 may bring: that, or the largest radiance of a coarse grid over the picture.
- * (A ray that is cut may go where the camera does not look.) */
+ * (A ray that is cut may go where the camera does not look.) TURNER_USAGE where rays multiply so, and
+ * lose so little, that no error can be asked for. */
 enum turner_result turner_follow_bound(float *bound, struct turner_renderer *renderer);
 
 /* Traces what is new in the lattice. Where the settings ask for an error, samples whose cut weight

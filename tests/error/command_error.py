@@ -18,6 +18,15 @@ SCENE = """{"version": 1, "camera": {"from": [0, 1, 5], "at": [0, 0, 0]},
   {"type": "box", "min": [-3, -2, -2], "max": [3, -1, 1], "material": "grey"}],
  "lights": [{"type": "point", "position": [2, 4, 3], "intensity": 30}]}"""
 
+# between three mirrors of glass rays double at each step; without Fresnel nothing is lost
+BALLS = """{"version": 1, "camera": {"from": [0, 0, 8], "at": [0, 0, 0]},
+ "background": 0.5, "settings": {"size": [40, 30]},
+ "materials": {"glass": {"k_r": 1, "k_t": 1, "index": 1.5, "fresnel": "none"}},
+ "primitives": [
+  {"type": "sphere", "center": [0, 0, 0], "radius": %(r)g, "material": "glass"},
+  {"type": "sphere", "center": [%(r)g, 0, -%(r)g], "radius": %(r)g, "material": "glass"},
+  {"type": "sphere", "center": [-%(r)g, 0, -%(r)g], "radius": %(r)g, "material": "glass"}]}"""
+
 
 def turner(*arguments, status=0):
     done = subprocess.run([TURNER, "render", *arguments], capture_output=True, text=True,
@@ -55,6 +64,13 @@ def main():
     turner("scene.json", "-o", "tiles.exr", "--error", "0.05", "--tile", "7", "-q")
     turner("scene.json", "-o", "whole.exr", "--error", "0.05", "-q")
     assert pathlib.Path("tiles.exr").read_bytes() == pathlib.Path("whole.exr").read_bytes()
+
+    pathlib.Path("large.json").write_text(BALLS % {"r": 3})
+    said = turner("large.json", "-o", "f.exr", "--error", "0.05", status=2).stderr
+    assert "rays on average" in said and "--method fresnel=exact" in said
+    pathlib.Path("small.json").write_text(BALLS % {"r": 0.1})
+    few = statistics("small.json", "-o", "few.exr", "--error", "0.05")
+    assert 0 < few["error"]["missed"] < 100 and few["error"]["max"] > 1, "cut rays are no error"
 
     given = statistics("asks.json", "-o", "e.exr", "--spp", "2")
     assert "error" not in given and given["samples"] == {"mean": 2, "max": 2}
