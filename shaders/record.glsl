@@ -136,7 +136,7 @@ void record_crossing(hit_t hit, meeting_t met, bool shadow)
 void record_end(bool shadow, ray_t ray, vec3 weight)
 {
     record_event(shadow ? TURNER_RECORD_LIT : TURNER_RECORD_BACKGROUND);
-    vec3 radiance = shadow ? vec3(1.0) : background(vec3(ray.direction));
+    vec3 radiance = shadow ? vec3(1.0) : user_background(vec3(ray.direction));
     record_value(TURNER_RECORD_THROUGH, recorded_through);
     record_value(TURNER_RECORD_RADIANCE, radiance);
     record_value(TURNER_RECORD_CONTRIBUTION, shadow ? weight : weight * radiance);
@@ -208,8 +208,8 @@ void record_light(shading_t shading, uint light, arrival_t arrival)
     record_value(TURNER_RECORD_N_L, n_l);
     record_value(TURNER_RECORD_R_V, dot(2.0 * n_l * shading.N - L, shading.V));
     if (n_l > 0.0) {
-        record_value(TURNER_RECORD_DIFFUSE, local_illumination(dull, shading.N, shading.V, L));
-        record_value(TURNER_RECORD_SPECULAR, local_illumination(black, shading.N, shading.V, L));
+        record_value(TURNER_RECORD_DIFFUSE, user_brdf(dull, shading.N, shading.V, L));
+        record_value(TURNER_RECORD_SPECULAR, user_brdf(black, shading.N, shading.V, L));
     }
     record_media(shading.media);
 }

@@ -10,6 +10,10 @@
 #include "fresnel.glsl"
 #include "light.glsl"
 #include "background.glsl"
+#include "user/surface.glsl"
+#include "user/brdf.glsl"
+#include "user/background.glsl"
+#include "user/light.glsl"
 
 // For turner explain (record.glsl); otherwise these lines say nothing.
 #ifdef TURNER_RECORD
@@ -142,6 +146,7 @@ meeting_t meet(ray_t ray, hit_t hit, uint64_t media)
     meeting_t met;
     met.surface = surface_of(ray, hit);
     met.material = material_at(met.surface);
+    user_surface(met.material, met.surface.ns, met.surface);
     met.crossing = crossing_t(media, media, true);
     if (NEEDS_ANY(TURNER_NEEDS_MEDIA) && met.surface.transmissive)
         met.crossing = media_cross(media, met.material.medium + 1u,
@@ -168,13 +173,14 @@ shading_t shading_of(meeting_t met, real3 V, vec3 weight)
 bool next_light(inout shading_t shading, out ray_t ray, out vec3 light)
 {
     while (shading.light < scene.light_count) {
-        turner_gpu_light source = light_array(scene.lights).at[shading.light++];
-        arrival_t arrival = light_arrival(source, shading.surface.point);
-        RECORD(record_light(shading, shading.light - 1u, arrival));
+        uint index = shading.light++;
+        arrival_t arrival = user_light(light_array(scene.lights).at[index], index,
+                                       shading.surface.point);
+        RECORD(record_light(shading, index, arrival));
         if (!(dot(shading.N, arrival.direction) > 0.0) || arrival.irradiance == vec3(0.0))
             continue;
         light = shading.weight * arrival.irradiance *
-                local_illumination(shading.material, shading.N, shading.V, arrival.direction);
+                user_brdf(shading.material, shading.N, shading.V, arrival.direction);
         ray = spawn_ray(shading.surface, arrival.direction, arrival.distance);
         RECORD(record_shadow(ray));
         return true;
@@ -280,8 +286,8 @@ vec4 whitted(ray_t camera, bool busy, inout turner_gpu_counters counts)
             }
         } else if (busy && !search.blocked) {
             RECORD(record_end(shadow, ray, current.weight));
-            add(radiance, shadow ? current.weight : current.weight *
-                                                             background(vec3(ray.direction)));
+            add(radiance, shadow ? current.weight
+                                 : current.weight * user_background(vec3(ray.direction)));
         }
 
         if (busy && !straight) {

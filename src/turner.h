@@ -95,6 +95,7 @@ struct turner_render_options {
     enum turner_traversal traversal; /* auto: as the scene's settings say */
     const char *const *shader_dirs; /* searched first */
     size_t shader_dir_count;
+    bool no_scene_shaders; /* none from the scene's folder */
     int tile;            /* pixels, width and height of what is traced at once; 0 adapts to time */
     int threads;         /* of the reference; 0 one per core */
     bool unspecialised;  /* everything in the kernel, needed or not: same picture, slower */

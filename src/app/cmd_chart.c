@@ -8,6 +8,8 @@
 #include "app/app.h"
 #include "app/chart.h"
 #include "app/plot.h"
+#include "render/hooks.h"
+#include "render/shader_path.h"
 #include "base/memory.h"
 #include "gpu/cache.h"
 #include "scene/hash.h"
@@ -227,9 +229,11 @@ done:
 }
 
 static enum turner_result run(struct turner_chart *chart, const struct arguments *a,
-                              const char *scene)
+                              const char *scene, struct turner_shader_path *path)
 {
     TURNER_TRY(prepare_scene(chart, a, scene));
+    turner_shader_path_create(path, &chart->render, chart->scene);
+    TURNER_TRY(turner_hooks_warn(&chart->render, "what they change counts as error"));
     TURNER_TRY(read_grid(chart, a));
     for (size_t i = 0; a->list && i < chart->point_count; i++)
         puts(chart->points[i].label);
@@ -263,7 +267,9 @@ enum turner_result turner_cmd_chart(int argc, char **argv)
     chart.folder = chart.folder ? chart.folder : folder;
     char *cache = default_cache(chart.folder);
     chart.cache = chart.cache ? chart.cache : cache;
-    enum turner_result result = run(&chart, &a, argv[optind]);
+    struct turner_shader_path path = {0};
+    enum turner_result result = run(&chart, &a, argv[optind], &path);
+    turner_shader_path_destroy(&path);
     free(folder);
     free(cache);
     free(chart.points);

@@ -8,6 +8,8 @@
 #include "app/scene_options.h"
 #include "reference/reference.h"
 #include "render/explain.h"
+#include "render/hooks.h"
+#include "render/shader_path.h"
 
 static void print_help(void)
 {
@@ -103,13 +105,15 @@ static enum turner_result place_sample(struct turner_explanation *explanation,
     return TURNER_OK;
 }
 
-static enum turner_result explain(const struct arguments *a, const struct turner_scene *scene)
+static enum turner_result explain(const struct arguments *a, const struct turner_scene *scene,
+                                  const struct turner_render_options *options)
 {
     struct turner_explanation explanation = {.scene = scene};
     struct turner_ray_tree device = {0}, reference = {0};
     struct turner_recorder recorder = {0};
     bool alone = a->options.render.device && strcmp(a->options.render.device, "reference") == 0;
     enum turner_result result;
+    TURNER_TRY(turner_hooks_warn(options, "they are why it parts from the device"));
     TURNER_TRY(read_pixel(&explanation.x, &explanation.y, a->pixel, &scene->settings));
     TURNER_TRY(place_sample(&explanation, a, &scene->settings));
 
@@ -117,7 +121,7 @@ static enum turner_result explain(const struct arguments *a, const struct turner
                                              explanation.x + explanation.sample_x,
                                              explanation.y + explanation.sample_y));
     if (!alone) {
-        TURNER_TRY_DONE(turner_recorder_create(&recorder, scene, &a->options.render));
+        TURNER_TRY_DONE(turner_recorder_create(&recorder, scene, options));
         TURNER_TRY_DONE(turner_recorder_trace(&device, &recorder, explanation.x, explanation.y,
                                               explanation.sample_x, explanation.sample_y));
         explanation.device = recorder.gpu.info.name;
@@ -156,8 +160,12 @@ enum turner_result turner_cmd_explain(int argc, char **argv)
     TURNER_TRY(turner_scene_load(&scene, argv[optind]));
     enum turner_result result = turner_scene_options_apply(&a.options, scene);
     scene->settings.error = 0; /* one tree, of the depth and cutoff that both sides can follow */
+    struct turner_render_options options = a.options.render;
+    struct turner_shader_path path;
+    turner_shader_path_create(&path, &options, scene);
     if (result == TURNER_OK)
-        result = explain(&a, scene);
+        result = explain(&a, scene, &options);
+    turner_shader_path_destroy(&path);
     turner_scene_destroy(scene);
     return result;
 }

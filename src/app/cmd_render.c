@@ -42,6 +42,7 @@ static void print_help(void)
          "                         extended precision on the CPU, slow, the truth to compare with\n"
          "      --traversal KIND   auto | bvh | bvh_lane | bvh_packet | ray_query\n"
          "      --shader-dir DIR   take shaders from here first (may be repeated)\n"
+         "      --no-scene-shaders leave out the shaders of the scene's own folder (docs/shaders.md)\n"
          "      --tile N           pixels traced at once, N×N; default adapts to the time it takes\n"
          "      --threads N        of the reference\n"
          "      --no-cache         compile the shaders anew, and keep nothing (docs/start.md)\n"
@@ -83,6 +84,7 @@ static const struct option long_options[] = {
     {"device", required_argument, NULL, 'd'},
     {"traversal", required_argument, NULL, TURNER_OPTION_TRAVERSAL},
     {"shader-dir", required_argument, NULL, TURNER_OPTION_SHADER_DIR},
+    {"no-scene-shaders", no_argument, NULL, TURNER_OPTION_NO_SCENE_SHADERS},
     {"tile", required_argument, NULL, TILE},
     {"threads", required_argument, NULL, THREADS},
     {"no-cache", no_argument, NULL, NO_CACHE},

@@ -69,6 +69,7 @@ enum turner_result turner_scene_option_take(struct turner_scene_options *o, int 
     case TURNER_OPTION_SPD_GRID: o->spd_grid = true; return TURNER_OK;
     case TURNER_OPTION_TRAVERSAL: return take_traversal(o, optarg);
     case TURNER_OPTION_SHADER_DIR: return take_shader_dir(o, optarg);
+    case TURNER_OPTION_NO_SCENE_SHADERS: o->render.no_scene_shaders = true; return TURNER_OK;
     }
     return turner_bad_option(argv);
 }

@@ -42,6 +42,7 @@ enum turner_scene_option {
     TURNER_OPTION_SPD_GRID,
     TURNER_OPTION_TRAVERSAL,
     TURNER_OPTION_SHADER_DIR,
+    TURNER_OPTION_NO_SCENE_SHADERS,
     TURNER_OPTION_OWN /* a command's own ones begin here */
 };
 

@@ -225,5 +225,5 @@ enum turner_result turner_renderer_draw(struct turner_renderer *renderer,
                    ? turner_adaptive_draw(renderer, image, options, statistics)
                    : draw_regular(renderer, image, options, statistics));
     add_counters(renderer, statistics);
-    return TURNER_OK;
+    return turner_post_draw(image, &renderer->post, renderer->gpu);
 }

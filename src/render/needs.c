@@ -182,6 +182,12 @@ struct turner_needs turner_needs_explain(struct turner_why why[TURNER_NEEDS_COUN
     return needs;
 }
 
+void turner_needs_add(struct turner_needs *needs, uint32_t bits, const struct turner_scene *scene)
+{
+    needs->bits |= bits;
+    bound_loops(needs, scene);
+}
+
 struct turner_needs turner_needs_of(const struct turner_scene *scene)
 {
     struct turner_why why[TURNER_NEEDS_COUNT];

@@ -44,6 +44,9 @@ struct turner_needs turner_needs_of(const struct turner_scene *scene);
 struct turner_needs turner_needs_explain(struct turner_why why[TURNER_NEEDS_COUNT],
                                          const struct turner_scene *scene);
 
+/* Adds features that no thing of the scene asks for; the bounds follow. */
+void turner_needs_add(struct turner_needs *needs, uint32_t bits, const struct turner_scene *scene);
+
 /* Name of one bit ("triangles"), for messages and statistics. */
 const char *turner_needs_name(uint32_t bit);
 

@@ -10,9 +10,11 @@
 #include "render/cells.h"
 #include "render/contrast.h"
 #include "render/features.h"
+#include "render/hooks.h"
 #include "render/layers.h"
 #include "render/opening.h"
 #include "render/renderer.h"
+#include "render/shader_path.h"
 #include "../shaders/shared.h"
 
 static void inspect(const struct turner_image *image, struct turner_statistics *statistics)
@@ -158,16 +160,29 @@ enum turner_result turner_render(struct turner_image *image, const struct turner
     return result;
 }
 
-enum turner_result turner_render_opened(struct turner_image *image,
-                                        const struct turner_scene *scene,
-                                        const struct turner_render_options *options,
-                                        struct turner_statistics *statistics,
-                                        struct turner_opening *opening)
+/* What does not take part in the picture, or in what is said of it. */
+static enum turner_result warn_of_hooks(const struct turner_scene *scene,
+                                        const struct turner_render_options *options, bool reference)
 {
-    static const struct turner_render_options defaults;
+    uint32_t hooks;
+    char paths[512];
+    if (reference)
+        return turner_hooks_warn(options, "its picture is without them");
+    if (scene->settings.error == 0)
+        return TURNER_OK;
+    TURNER_TRY(turner_hooks_find(&hooks, paths, options));
+    if (hooks)
+        turner_warn("the estimate of the error knows nothing of %s: it may be too low where they "
+                    "make light, and is of the picture before user/post.glsl", paths);
+    return TURNER_OK;
+}
+
+static enum turner_result draw(struct turner_image *image, const struct turner_scene *scene,
+                               const struct turner_render_options *options,
+                               struct turner_statistics *statistics,
+                               struct turner_opening *opening)
+{
     struct turner_statistics unused;
-    if (!options)
-        options = &defaults;
     if (!statistics)
         statistics = &unused;
     double seconds_parse = statistics == &unused ? 0 : statistics->seconds_parse;
@@ -184,6 +199,7 @@ enum turner_result turner_render_opened(struct turner_image *image,
         TURNER_TRY(turner_layers_create(options->layers, scene));
     if (!reference) /* that makes its own */
         TURNER_TRY(turner_image_create(image, scene->settings.width, scene->settings.height));
+    TURNER_TRY(warn_of_hooks(scene, options, reference));
     TURNER_TRY(reference ? draw_by_reference(image, scene, options, statistics)
                          : draw_on_device(image, scene, options, statistics, opening));
     inspect(image, statistics);
@@ -198,4 +214,20 @@ enum turner_result turner_render_opened(struct turner_image *image,
     getrusage(RUSAGE_SELF, &usage);
     statistics->host_peak_bytes = (uint64_t)usage.ru_maxrss * 1024;
     return TURNER_OK;
+}
+
+enum turner_result turner_render_opened(struct turner_image *image,
+                                        const struct turner_scene *scene,
+                                        const struct turner_render_options *options,
+                                        struct turner_statistics *statistics,
+                                        struct turner_opening *opening)
+{
+    struct turner_render_options whole = {0};
+    struct turner_shader_path path;
+    if (options)
+        whole = *options;
+    turner_shader_path_create(&path, &whole, scene);
+    enum turner_result result = draw(image, scene, &whole, statistics, opening);
+    turner_shader_path_destroy(&path);
+    return result;
 }

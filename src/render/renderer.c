@@ -10,6 +10,7 @@
 #include "gpu/include.h"
 #include "render/adaptive.h"
 #include "render/follow.h"
+#include "render/hooks.h"
 #include "render/layers.h"
 #include "scene/methods.h"
 
@@ -102,6 +103,7 @@ enum turner_result turner_kernel_create_from(struct turner_kernel *kernel, const
     enum turner_result result;
     TURNER_TRY_DONE(turner_shader_source_create(&source, file, options->shader_dirs,
                                                 options->shader_dir_count));
+    kernel->hooks = turner_hooks_of(&source);
     result = options->no_cache ? turner_compile(&kernel->spirv, &source, defines, count)
                                : turner_compile_cached(&kernel->spirv, &kernel->cached, &source,
                                                        defines, count);
@@ -186,6 +188,7 @@ static enum turner_result create(struct turner_renderer *renderer,
     double built = turner_seconds();
     TURNER_TRY(specialise(renderer, kernel, options, statistics));
     double specialised = turner_seconds();
+    TURNER_TRY(turner_post_create(&renderer->post, gpu, options));
     TURNER_TRY(turner_device_scene_create(&renderer->scene, gpu, scene, &renderer->flat,
                                           &renderer->needs, renderer->ray_query));
     turner_flat_release(&renderer->flat);
@@ -253,6 +256,7 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
         turner_follow_settings(&deep.settings,
                                turner_needs_of(scene).bits & TURNER_NEEDS_BRANCHING);
     renderer->needs = turner_needs_of(&deep);
+    turner_hooks_widen(&renderer->needs, kernel->hooks, &deep);
     renderer->needs.pixel_counts = turner_layers_want(options->layers, TURNER_LAYERS_OF_RAYS);
     renderer->settings = deep.settings;
     renderer->glow = turner_follow_glow(scene);
@@ -278,6 +282,7 @@ void turner_renderer_destroy(struct turner_renderer *renderer)
     turner_buffer_destroy(gpu, &renderer->pixels);
     turner_buffer_destroy(gpu, &renderer->positions);
     turner_device_scene_destroy(gpu, &renderer->scene);
+    turner_post_destroy(gpu, &renderer->post);
     turner_program_destroy(gpu, &renderer->program);
     turner_flat_destroy(&renderer->flat);
     memset(renderer, 0, sizeof *renderer);

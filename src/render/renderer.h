@@ -5,6 +5,7 @@
 
 #include "gpu/program.h"
 #include "render/device_scene.h"
+#include "render/post.h"
 
 /* What the shaders' source is compiled to: the names are those of #defines. */
 enum turner_kernel_kind {
@@ -23,6 +24,7 @@ enum turner_kernel_kind {
 struct turner_kernel {
     unsigned kind; /* TURNER_RAY_QUERY | … */
     bool cached;   /* the cache had it (gpu/cache.h) */
+    uint32_t hooks; /* of its files, those that are replaced (render/hooks.h) */
     struct turner_spirv spirv;
 };
 
@@ -55,6 +57,7 @@ struct turner_renderer {
     struct turner_flat flat;
     struct turner_device_scene scene;
     struct turner_program program;
+    struct turner_post post;
     struct turner_buffer pixels;    /* of one tile, or results of one list */
     struct turner_buffer positions; /* of one list; adaptive pictures only */
     struct turner_buffer counters;

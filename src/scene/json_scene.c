@@ -179,7 +179,7 @@ static enum turner_result read_background(struct json_reader *reader,
 /* ---- the root ---- */
 
 struct scene_json {
-    const char *description;
+    const char *description, *shaders;
     struct turner_vec3 ambient;
 };
 
@@ -187,6 +187,7 @@ static const struct json_key scene_keys[] = {
     JSON_KEY_ANY("$schema", false),
     JSON_KEY_ANY("version", true),
     JSON_KEY("description", JSON_STRING, false, offsetof(struct scene_json, description)),
+    JSON_KEY("shaders", JSON_STRING, false, offsetof(struct scene_json, shaders)),
     JSON_KEY_ANY("settings", false),
     JSON_KEY_ANY("camera", true),
     JSON_KEY("ambient", JSON_COLOR, false, offsetof(struct scene_json, ambient)),
@@ -251,6 +252,7 @@ static enum turner_result read_scene(struct json_reader *reader, const struct js
     struct json_object object;
     TURNER_TRY(json_read_object(&object, &s, reader, root, &json_table_scene));
     scene->description = s.description ? turner_strdup(s.description) : NULL;
+    scene->shaders = s.shaders ? turner_path_beside(reader->path, s.shaders) : NULL;
     scene->ambient = s.ambient;
 
     const struct json_value *media = json_member(&object, "media");

@@ -59,6 +59,7 @@ void turner_scene_destroy(struct turner_scene *scene)
         return;
     free(scene->path);
     free(scene->description);
+    free(scene->shaders);
     for (size_t i = 0; i < scene->media_count; i++)
         free(scene->media[i].name);
     free(scene->media);

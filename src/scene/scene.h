@@ -205,6 +205,7 @@ struct turner_background {
 
 struct turner_scene {
     char *path, *description; /* either may be NULL */
+    char *shaders; /* folder of the scene's own, as it is to be opened; NULL: none is said */
     struct turner_settings settings;
     struct turner_camera camera;
     struct turner_vec3 ambient; /* I_a */

@@ -1,0 +1,65 @@
+#include "render/post.h"
+
+#include <string.h>
+
+#include "render/hooks.h"
+#include "render/renderer.h"
+#include "../shaders/shared.h"
+
+static enum turner_result create(struct turner_post *post, struct turner_gpu *gpu,
+                                 const struct turner_render_options *options)
+{
+    struct turner_kernel kernel;
+    enum turner_result result = turner_kernel_create_from(&kernel, "post.comp", 0, options);
+    if (result == TURNER_OK && kernel.hooks & 1u << TURNER_HOOK_POST) {
+        post->wanted = true;
+        result = turner_program_create(&post->program, gpu, &kernel.spirv, NULL, 0, VK_NULL_HANDLE);
+    }
+    turner_kernel_destroy(&kernel);
+    if (result == TURNER_OK && post->wanted)
+        result = turner_buffer_create(&post->pixels, gpu, TURNER_POST_PIXELS * 4 * sizeof(float), 0,
+                                      TURNER_MEMORY_HOST, "pixels for user/post.glsl");
+    return result;
+}
+
+enum turner_result turner_post_create(struct turner_post *post, struct turner_gpu *gpu,
+                                      const struct turner_render_options *options)
+{
+    uint32_t hooks;
+    *post = (struct turner_post){0};
+    TURNER_TRY(turner_hooks_find(&hooks, NULL, options));
+    return hooks & 1u << TURNER_HOOK_POST ? create(post, gpu, options) : TURNER_OK;
+}
+
+void turner_post_destroy(struct turner_gpu *gpu, struct turner_post *post)
+{
+    turner_buffer_destroy(gpu, &post->pixels);
+    turner_program_destroy(gpu, &post->program);
+    *post = (struct turner_post){0};
+}
+
+enum turner_result turner_post_draw(struct turner_image *image, struct turner_post *post,
+                                    struct turner_gpu *gpu)
+{
+    const uint32_t group = TURNER_WORKGROUP * TURNER_WORKGROUP;
+    size_t pixels = post->wanted ? (size_t)image->width * (size_t)image->height : 0;
+    for (size_t first = 0; first < pixels; first += TURNER_POST_PIXELS) {
+        size_t count = pixels - first < TURNER_POST_PIXELS ? pixels - first : TURNER_POST_PIXELS;
+        struct turner_gpu_dispatch push = {
+            .pixels = post->pixels.address,
+            .tile_width = (uint32_t)image->width,
+            .tile_height = (uint32_t)image->height,
+            .first = (uint32_t)first,
+            .count = (uint32_t)count,
+        };
+        VkCommandBuffer commands;
+        float *rgba = image->rgba + 4 * first;
+        memcpy(post->pixels.mapped, rgba, count * 4 * sizeof *rgba);
+        TURNER_TRY(turner_gpu_begin(gpu, &commands));
+        turner_program_dispatch(commands, &post->program, &push,
+                                ((uint32_t)count + group - 1) / group, 1, 1);
+        TURNER_TRY(turner_gpu_submit_wait(gpu, commands));
+        memcpy(rgba, post->pixels.mapped, count * 4 * sizeof *rgba);
+    }
+    return TURNER_OK;
+}
