@@ -99,8 +99,8 @@ enum turner_result turner_renderer_trace_counted(struct turner_renderer *rendere
                                                  size_t count, float (*results)[4],
                                                  struct turner_gpu_pixel_counts *counts)
 {
-    for (size_t done = 0; done < count;) {
-        size_t piece = renderer->list ? renderer->list : LIST_FIRST;
+    /* begins small each time: samples of another call may take a thousand times longer */
+    for (size_t done = 0, piece = LIST_FIRST; done < count;) {
         bool whole = count - done >= piece;
         size_t size = whole ? piece : count - done;
         double start = turner_seconds();
@@ -109,9 +109,9 @@ enum turner_result turner_renderer_trace_counted(struct turner_renderer *rendere
         double seconds = turner_seconds() - start;
         done += size;
         if (seconds > SECONDS_LONG && piece > LIST_MIN)
-            renderer->list = piece / 2;
-        else if (seconds < SECONDS_SHORT && whole)
-            renderer->list = piece < TURNER_LIST_MAX / 2 ? piece * 2 : TURNER_LIST_MAX;
+            piece /= 2;
+        else if (seconds < SECONDS_SHORT && whole && piece < TURNER_LIST_MAX)
+            piece *= 2;
     }
     return TURNER_OK;
 }

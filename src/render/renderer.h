@@ -67,7 +67,6 @@ struct turner_renderer {
                                          the same scene by those that are not; else NULL */
     float glow;  /* the largest radiance that shows without a light: background and emission */
     int tile;    /* fixed edge in pixels, or 0: follows the time a tile takes */
-    size_t list; /* samples of a list traced at once: follows the time they take */
 };
 
 /* Which traversal a device gets, BVH_LANE, BVH_PACKET or RAY_QUERY; TURNER_DEVICE says what is
