@@ -455,7 +455,6 @@ enum turner_result turner_scene_read_nff(struct turner_scene *scene, const char 
 
     turner_tokens_begin(&nff->tokens, text, length, path);
     enum turner_result result = read_items(nff);
-    turner_tokens_end(&nff->tokens);
     if (result == TURNER_OK) {
         for (size_t i = 0; i < scene->light_count; i++)
             scene->lights[i].power = turner_vec3_scale(scene->lights[i].power,

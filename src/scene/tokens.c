@@ -4,10 +4,10 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#define MAX_NUMBER_LENGTH 255
+#include "base/number.h"
+
 #define MAX_SHOWN_LENGTH 40
 
 void turner_tokens_begin(struct turner_tokens *tokens, const char *text, size_t length,
@@ -15,19 +15,7 @@ void turner_tokens_begin(struct turner_tokens *tokens, const char *text, size_t 
 {
     *tokens = (struct turner_tokens){.path = path, .next = text, .end = text + length,
                                      .line_start = text, .line = 1};
-    /* the one way to a number whose point is a point that POSIX has; (locale_t)0, for want of
-     * memory, leaves the locale as it is */
-    tokens->numbers = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    tokens->before = uselocale(tokens->numbers);
     turner_tokens_advance(tokens);
-}
-
-void turner_tokens_end(struct turner_tokens *tokens)
-{
-    uselocale(tokens->before);
-    if (tokens->numbers)
-        freelocale(tokens->numbers);
-    *tokens = (struct turner_tokens){0};
 }
 
 static bool is_blank(char c)
@@ -81,19 +69,8 @@ enum turner_result turner_tokens_number(struct turner_tokens *tokens, double *va
                                         const char *what, double low, double high)
 {
     const struct turner_token *token = &tokens->token;
-    char number[MAX_NUMBER_LENGTH + 1];
-    bool decimal = token->length > 0 && token->length <= MAX_NUMBER_LENGTH;
-    for (size_t i = 0; decimal && i < token->length; i++) { /* no hexadecimal, inf or nan */
-        char c = token->text[i];
-        decimal = is_digit(c) || c == '+' || c == '-' || c == '.' || c == 'e' || c == 'E';
-    }
-    if (!decimal)
-        return turner_tokens_expected(tokens, "a number, %s", what);
-    memcpy(number, token->text, token->length);
-    number[token->length] = '\0';
-    char *rest;
-    *value = strtod(number, &rest);
-    if (*rest != '\0')
+    size_t read = turner_number_read(value, token->text, token->length);
+    if (!read || read != token->length)
         return turner_tokens_expected(tokens, "a number, %s", what);
     if (fabs(*value) > (double)FLT_MAX)
         return turner_tokens_expected(tokens, "a number within ±3.4e38, %s", what);

@@ -2,7 +2,6 @@
 #ifndef TURNER_SCENE_TOKENS_H
 #define TURNER_SCENE_TOKENS_H
 
-#include <locale.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -19,15 +18,12 @@ struct turner_tokens {
     struct turner_token token, last; /* the current token and the one before */
     const char *next, *end, *line_start;
     size_t line;
-    locale_t numbers, before;
 };
 
 /* Stands at the first token afterwards. `#` starts a comment that ends with the line. The text need
- * not end in NUL and stays with the caller, as does `path`. Numbers are read as in the C locale:
- * this thread's locale is another until turner_tokens_end. */
+ * not end in NUL and stays with the caller, as does `path`. */
 void turner_tokens_begin(struct turner_tokens *tokens, const char *text, size_t length,
                          const char *path);
-void turner_tokens_end(struct turner_tokens *tokens);
 
 void turner_tokens_advance(struct turner_tokens *tokens);
 

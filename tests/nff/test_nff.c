@@ -5,9 +5,11 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include <cmocka.h>
 
+#include "base/number.h"
 #include "nff_reading.h"
 
 static void same(struct turner_vec3 v, double x, double y, double z)
@@ -175,6 +177,30 @@ static void layout_of_the_text_is_free(void **state)
     turner_scene_destroy(scene);
 }
 
+static void numbers_are_read_to_their_end(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double value;
+        size_t length;
+    } cases[] = {
+        {"1", 1, 1},          {"-1.5e3 2", -1500, 6},       {"+.25", .25, 4},  {"7.", 7, 2},
+        {"1e999", INFINITY, 5}, {"-1E+999", -INFINITY, 7}, {"1e-999", 0, 6}, {"0x10", 0, 1},
+        {"inf", 0, 0},        {"nan", 0, 0},                {"+-1", 0, 0},     {"+", 0, 0},
+        {"", 0, 0},           {"1e", 1, 1},                 {"4.9e-324", 0x1p-1074, 8},
+        {"2.2250738585072011e-308", 0x0.fffffffffffffp-1022, 23}, /* once PHP's endless loop */
+        {"9007199254740993", 9007199254740992.0, 16}, /* halfway: to even */
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        double value;
+        print_message("%s\n", cases[i].text);
+        assert_int_equal(turner_number_read(&value, cases[i].text, strlen(cases[i].text)),
+                         cases[i].length);
+        assert_true(value == cases[i].value);
+    }
+}
+
 static void decimal_commas_of_the_locale_do_not_matter(void **state)
 {
     (void)state;
@@ -241,6 +267,7 @@ int main(void)
         cmocka_unit_test(polygons_and_patches_are_gathered_by_fill),
         cmocka_unit_test(concave_polygons_follow_newells_normal),
         cmocka_unit_test(layout_of_the_text_is_free),
+        cmocka_unit_test(numbers_are_read_to_their_end),
         cmocka_unit_test(decimal_commas_of_the_locale_do_not_matter),
         cmocka_unit_test(what_has_no_area_is_left_out_with_one_warning),
         cmocka_unit_test(many_different_fills),
