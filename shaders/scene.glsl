@@ -55,6 +55,22 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer sce
 // Read once, by main(): a load through an address is a gather for every lane.
 turner_gpu_scene scene;
 
+// Values of the parameters that //!PARAM lines declare (docs/shaders.md); what such a line becomes.
+TURNER_ARRAY(param_array, uint);
+int turner_param_int(uint word)
+{
+    return int(param_array(dispatch.params).at[word]);
+}
+float turner_param_float(uint word)
+{
+    return uintBitsToFloat(param_array(dispatch.params).at[word]);
+}
+vec3 turner_param_color(uint word)
+{
+    return vec3(turner_param_float(word), turner_param_float(word + 1u),
+                turner_param_float(word + 2u));
+}
+
 #define INFINITY uintBitsToFloat(0x7f800000u)
 const float PI = 3.14159265358979;
 

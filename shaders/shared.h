@@ -26,6 +26,7 @@
 #define TURNER_CONSTANT_BVH_STACK 2 /* nodes kept at once: from the built tree */
 #define TURNER_CONSTANT_METHODS 3   /* TURNER_METHOD_… chosen; 0 is the default of each */
 #define TURNER_CONSTANT_PIXEL_COUNTS 4 /* 1: rays are counted for each pixel, too */
+#define TURNER_CONSTANT_PARAMS 64 /* const parameters (//!PARAM) from here on */
 #define TURNER_WORKGROUP 8          /* a workgroup is 8×8 pixels in Morton order */
 
 /* ---- what a scene may need; what it does not is not in the kernel ---- */
@@ -323,6 +324,7 @@ TURNER_STRUCT(turner_gpu_dispatch)
                                 radiance and pruned */
     TURNER_UINT64 counters;  /* rays.comp: the hits */
     TURNER_UINT64 pixel_counts; /* as many as `pixels`, with TURNER_CONSTANT_PIXEL_COUNTS */
+    TURNER_UINT64 params;    /* values of the live parameters, where the kernel has any */
     TURNER_UINT64 positions; /* list: `count` places in the picture, in pixels; or 0: a tile */
     uint tile_x;             /* the tile's place in the picture */
     uint tile_y;

@@ -9,12 +9,14 @@
 #include "app/chart.h"
 #include "app/plot.h"
 #include "render/hooks.h"
+#include "render/params.h"
 #include "render/shader_path.h"
 #include "base/memory.h"
 #include "gpu/cache.h"
 #include "scene/hash.h"
 
 #define CHART_WIDTH 256
+#define MAX_PARAMS 64
 #define MAX_SHADER_DIRS 16
 
 static void print_help(void)
@@ -48,6 +50,7 @@ static void print_help(void)
          "                         $TURNER_CACHE_DIR or ~/.cache/turner); may be deleted any time\n"
          "  -d, --device D         index or part of the name (turner devices)\n"
          "      --shader-dir DIR   take shaders from here first (may be repeated)\n"
+         "      --set NAME=VALUE   a parameter of the shaders (may be repeated)\n"
          "  -q, --quiet            no progress bar, no tables\n"
          "  -h, --help             this text\n");
     puts("A grid names methods (turner params lists them) and their values. \"axes\" are combined,\n"
@@ -65,7 +68,8 @@ static void print_help(void)
 
 enum {
     OPTION_GRID = 256, OPTION_PRINT_GRID, OPTION_LIST, OPTION_SIZE, OPTION_RUNS, OPTION_METRIC,
-    OPTION_AGAINST, OPTION_REFERENCE_SPP, OPTION_CACHE, OPTION_SHADER_DIR
+    OPTION_AGAINST, OPTION_REFERENCE_SPP, OPTION_CACHE, OPTION_SHADER_DIR,
+    OPTION_SET
 };
 
 static const struct option long_options[] = {
@@ -82,6 +86,7 @@ static const struct option long_options[] = {
     {"cache", required_argument, NULL, OPTION_CACHE},
     {"device", required_argument, NULL, 'd'},
     {"shader-dir", required_argument, NULL, OPTION_SHADER_DIR},
+    {"set", required_argument, NULL, OPTION_SET},
     {"quiet", no_argument, NULL, 'q'},
     {"help", no_argument, NULL, 'h'},
     {0},
@@ -94,6 +99,8 @@ struct arguments {
     const char *methods[TURNER_CHART_MAX_METHODS];
     size_t method_count;
     const char *shader_dirs[MAX_SHADER_DIRS];
+    const char *params[MAX_PARAMS];
+    size_t param_count;
 };
 
 static enum turner_result take_metrics(struct turner_chart *chart, const char *list)
@@ -143,6 +150,11 @@ static enum turner_result take(struct arguments *a, struct turner_chart *chart, 
         return turner_option_int(&chart->reference_spp, "--reference-spp", optarg, 2,
                                  TURNER_MAX_SPP);
     case OPTION_CACHE: chart->cache = optarg; return TURNER_OK;
+    case OPTION_SET:
+        if (a->param_count == MAX_PARAMS)
+            return turner_fail(TURNER_USAGE, "--set can be given %d times", MAX_PARAMS);
+        a->params[a->param_count++] = optarg;
+        return TURNER_OK;
     case OPTION_SHADER_DIR:
         if (chart->render.shader_dir_count == MAX_SHADER_DIRS)
             return turner_fail(TURNER_USAGE, "--shader-dir can be given %d times",
@@ -190,7 +202,6 @@ static enum turner_result prepare_scene(struct turner_chart *chart, const struct
     int height = (int)lround((double)CHART_WIDTH * settings->height / settings->width);
     settings->height = a->height ? a->height : height > 0 ? height : 1;
     settings->width = a->width ? a->width : CHART_WIDTH;
-    chart->scene_hash = turner_scene_hash(chart->scene);
     return turner_scene_validate(chart->scene);
 }
 
@@ -233,6 +244,10 @@ static enum turner_result run(struct turner_chart *chart, const struct arguments
 {
     TURNER_TRY(prepare_scene(chart, a, scene));
     turner_shader_path_create(path, &chart->render, chart->scene);
+    for (size_t i = 0; i < a->param_count; i++)
+        TURNER_TRY(turner_scene_assign_param(chart->scene, a->params[i]));
+    TURNER_TRY(turner_params_settle(chart->scene, &chart->render));
+    chart->scene_hash = turner_scene_hash(chart->scene);
     TURNER_TRY(turner_hooks_warn(&chart->render, "what they change counts as error"));
     TURNER_TRY(read_grid(chart, a));
     for (size_t i = 0; a->list && i < chart->point_count; i++)

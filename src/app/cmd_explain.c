@@ -26,6 +26,8 @@ static void print_help(void)
          "                         tree alone, without Vulkan\n"
          "      --traversal KIND   auto | bvh | bvh_lane | bvh_packet | ray_query\n"
          "      --shader-dir DIR   take shaders from here first (may be repeated)\n"
+         "      --set NAME=VALUE   a parameter of the shaders; turner params SCENE lists them (may be\n"
+         "                         repeated)\n"
          "      --bits N           rays that agree in fewer bits part; default 10\n"
          "      --json             the same as JSON (docs/explain.md)\n"
          "  -h, --help             this text\n\n"
@@ -52,6 +54,7 @@ static const struct option long_options[] = {
     {"device", required_argument, NULL, 'd'},
     {"traversal", required_argument, NULL, TURNER_OPTION_TRAVERSAL},
     {"shader-dir", required_argument, NULL, TURNER_OPTION_SHADER_DIR},
+    {"set", required_argument, NULL, TURNER_OPTION_SET},
     {"bits", required_argument, NULL, BITS},
     {"json", no_argument, NULL, JSON},
     {"help", no_argument, NULL, 'h'},

@@ -42,6 +42,8 @@ static void print_help(void)
          "                         extended precision on the CPU, slow, the truth to compare with\n"
          "      --traversal KIND   auto | bvh | bvh_lane | bvh_packet | ray_query\n"
          "      --shader-dir DIR   take shaders from here first (may be repeated)\n"
+         "      --set NAME=VALUE   a parameter of the shaders; turner params SCENE lists them (may be\n"
+         "                         repeated)\n"
          "      --no-scene-shaders leave out the shaders of the scene's own folder (docs/shaders.md)\n"
          "      --tile N           pixels traced at once, N×N; default adapts to the time it takes\n"
          "      --threads N        of the reference\n"
@@ -84,6 +86,7 @@ static const struct option long_options[] = {
     {"device", required_argument, NULL, 'd'},
     {"traversal", required_argument, NULL, TURNER_OPTION_TRAVERSAL},
     {"shader-dir", required_argument, NULL, TURNER_OPTION_SHADER_DIR},
+    {"set", required_argument, NULL, TURNER_OPTION_SET},
     {"no-scene-shaders", no_argument, NULL, TURNER_OPTION_NO_SCENE_SHADERS},
     {"tile", required_argument, NULL, TILE},
     {"threads", required_argument, NULL, THREADS},

@@ -2,6 +2,8 @@
 
 #include <getopt.h>
 
+#include "render/params.h"
+#include "render/shader_path.h"
 #include "scene/methods.h"
 
 static enum turner_result take_error(double *out, const char *text)
@@ -20,6 +22,14 @@ static enum turner_result take_method(struct turner_scene_options *o, const char
     if (o->method_count == TURNER_METHOD_OPTIONS)
         return turner_fail(TURNER_USAGE, "--method can be given %d times", TURNER_METHOD_OPTIONS);
     o->methods[o->method_count++] = text;
+    return TURNER_OK;
+}
+
+static enum turner_result take_param(struct turner_scene_options *o, const char *text)
+{
+    if (o->param_count == TURNER_PARAM_OPTIONS)
+        return turner_fail(TURNER_USAGE, "--set can be given %d times", TURNER_PARAM_OPTIONS);
+    o->params[o->param_count++] = text;
     return TURNER_OK;
 }
 
@@ -69,6 +79,7 @@ enum turner_result turner_scene_option_take(struct turner_scene_options *o, int 
     case TURNER_OPTION_SPD_GRID: o->spd_grid = true; return TURNER_OK;
     case TURNER_OPTION_TRAVERSAL: return take_traversal(o, optarg);
     case TURNER_OPTION_SHADER_DIR: return take_shader_dir(o, optarg);
+    case TURNER_OPTION_SET: return take_param(o, optarg);
     case TURNER_OPTION_NO_SCENE_SHADERS: o->render.no_scene_shaders = true; return TURNER_OK;
     }
     return turner_bad_option(argv);
@@ -106,5 +117,21 @@ enum turner_result turner_scene_options_apply(const struct turner_scene_options 
         s->transfer = (enum turner_transfer)o->transfer;
     s->spd_rays = s->spd_rays || o->spd_rays;
     s->spd_grid = s->spd_grid || o->spd_grid;
+    TURNER_TRY(turner_scene_options_settle(o, scene));
     return turner_scene_validate(scene);
+}
+
+enum turner_result turner_scene_options_settle(const struct turner_scene_options *o,
+                                               struct turner_scene *scene)
+{
+    struct turner_render_options render = o->render;
+    struct turner_shader_path path;
+    enum turner_result result;
+    turner_shader_path_create(&path, &render, scene);
+    for (size_t i = 0; i < o->param_count; i++)
+        TURNER_TRY_DONE(turner_scene_assign_param(scene, o->params[i]));
+    TURNER_TRY_DONE(turner_params_settle(scene, &render));
+done:
+    turner_shader_path_destroy(&path);
+    return result;
 }

@@ -10,6 +10,7 @@
 
 #define TURNER_SHADER_DIRS 16
 #define TURNER_METHOD_OPTIONS 64
+#define TURNER_PARAM_OPTIONS 256
 
 struct turner_scene_options {
     int width, height, depth, spp, shading, shadows, transfer; /* −1 (or 0): the scene's */
@@ -17,6 +18,8 @@ struct turner_scene_options {
     bool spd_rays, spd_grid;
     const char *methods[TURNER_METHOD_OPTIONS]; /* "name=value", later ones win */
     size_t method_count;
+    const char *params[TURNER_PARAM_OPTIONS]; /* the same of parameters of shaders */
+    size_t param_count;
     const char *shader_dirs[TURNER_SHADER_DIRS];
     struct turner_render_options render;
 };
@@ -42,6 +45,7 @@ enum turner_scene_option {
     TURNER_OPTION_SPD_GRID,
     TURNER_OPTION_TRAVERSAL,
     TURNER_OPTION_SHADER_DIR,
+    TURNER_OPTION_SET,
     TURNER_OPTION_NO_SCENE_SHADERS,
     TURNER_OPTION_OWN /* a command's own ones begin here */
 };
@@ -50,9 +54,14 @@ enum turner_scene_option {
 enum turner_result turner_scene_option_take(struct turner_scene_options *options, int option,
                                             char **argv);
 
-/* Changes the scene's settings and checks the scene; methods come first, the other options after
- * them. */
+/* Changes the scene's settings, settles its parameters and checks the scene; methods come first, the
+ * other options after them. */
 enum turner_result turner_scene_options_apply(const struct turner_scene_options *options,
                                               struct turner_scene *scene);
+
+/* Gives the scene the values of --set, and each other parameter of its shaders the default.
+ * TURNER_USAGE for what no shader has, or does not fit. */
+enum turner_result turner_scene_options_settle(const struct turner_scene_options *options,
+                                               struct turner_scene *scene);
 
 #endif

@@ -9,8 +9,9 @@
 #include "render/needs.h"
 #include "scene/methods.h"
 
-static cJSON *settings_object(const struct turner_settings *settings)
+static cJSON *settings_object(const struct turner_scene *scene)
 {
+    const struct turner_settings *settings = &scene->settings;
     cJSON *object = cJSON_CreateObject();
     int size[2] = {settings->width, settings->height};
     cJSON_AddItemToObject(object, "size", cJSON_CreateIntArray(size, 2));
@@ -38,12 +39,20 @@ static cJSON *settings_object(const struct turner_settings *settings)
         turner_method_text(text, settings, name);
         cJSON_AddStringToObject(methods, name, text);
     }
+    cJSON *params = scene->param_count ? cJSON_AddObjectToObject(object, "params") : NULL;
+    for (size_t i = 0; i < scene->param_count; i++)
+        cJSON_AddStringToObject(params, scene->params[i].name, scene->params[i].value);
+    if (scene->shader_hash) {
+        char hash[20];
+        snprintf(hash, sizeof hash, "%016llx", (unsigned long long)scene->shader_hash);
+        cJSON_AddStringToObject(object, "shaders", hash);
+    }
     return object;
 }
 
 char *turner_settings_json(const struct turner_scene *scene)
 {
-    cJSON *object = settings_object(&scene->settings);
+    cJSON *object = settings_object(scene);
     char *text = cJSON_Print(object);
     cJSON_Delete(object);
     return text;
@@ -63,7 +72,7 @@ static cJSON *statistics_object(const struct turner_scene *scene,
     cJSON_AddStringToObject(object, "driver", s->driver);
     cJSON_AddStringToObject(object, "traversal", s->traversal);
     cJSON_AddStringToObject(object, "precision", s->precision);
-    cJSON_AddItemToObject(object, "settings", settings_object(&scene->settings));
+    cJSON_AddItemToObject(object, "settings", settings_object(scene));
     add_count(object, "primitives", s->primitives);
     add_count(object, "instances", s->instances);
 

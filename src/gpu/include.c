@@ -248,6 +248,52 @@ static enum turner_result expand_include(struct expansion *e, size_t includer, i
     return append_format(e, "#endif\n#line %d %zu\n", line + 1, includer);
 }
 
+/* A file under an #if may come in twice; its parameters are the same ones then. */
+static const struct turner_param *same_line(const struct turner_params *params, const char *file,
+                                            int line)
+{
+    for (size_t i = 0; i < params->count; i++) {
+        if (params->at[i].line == line && strcmp(params->at[i].file, file) == 0)
+            return &params->at[i];
+    }
+    return NULL;
+}
+
+/* The line `//!PARAM …`. */
+static enum turner_result expand_param(struct expansion *e, size_t index, int line,
+                                       const char *text, size_t length)
+{
+    char glsl[2048];
+    struct turner_shader_source *source = e->source;
+    const char *path = source->files[index].path;
+    struct turner_param param;
+    if (turner_param_parse(&param, text, length) != TURNER_OK) {
+        snprintf(glsl, sizeof glsl, "%s", turner_message());
+        return turner_fail(TURNER_BAD_INPUT, "%s:%d:%s", path, line, glsl);
+    }
+    snprintf(param.file, sizeof param.file, "%s", path);
+    param.line = line;
+    param.word = source->param_words;
+    const struct turner_param *known = same_line(&source->params, param.file, line);
+    const struct turner_param *other = turner_params_get(&source->params, param.name);
+    if (known) {
+        param = *known;
+    } else if (other) {
+        return turner_fail(TURNER_BAD_INPUT, "%s:%d: parameter \"%s\" is declared before, in "
+                                             "%s:%d", path, line, param.name, other->file,
+                           other->line);
+    } else {
+        source->param_words += turner_param_size(&param);
+        *TURNER_PUSH(source->params.at, source->params.count, source->params.capacity) = param;
+    }
+    if (source->param_words > TURNER_PARAM_WORDS)
+        return turner_fail(TURNER_BAD_INPUT, "%s:%d: the parameters take more than %d numbers", path,
+                           line, TURNER_PARAM_WORDS);
+    turner_param_glsl(glsl, sizeof glsl, &param);
+    TURNER_TRY(append(e, glsl, strlen(glsl)));
+    return append(e, "\n", 1);
+}
+
 static enum turner_result expand(struct expansion *e, size_t index, bool conditional, int depth)
 {
     const char *path = e->source->files[index].path, *next = e->source->files[index].text;
@@ -258,7 +304,15 @@ static enum turner_result expand(struct expansion *e, size_t index, bool conditi
         const char *text = next, *rest;
         size_t length = strcspn(text, "\n");
         next = text + length + (text[length] == '\n');
+        bool param = !scan.block_comment && !scan.continued && turner_param_is_line(text, length);
         long hash = scan_line(&scan, text, length);
+        if (param && scan.continued)
+            return turner_fail(TURNER_BAD_INPUT, "%s:%d: //!PARAM must end on its own line", path,
+                               line);
+        if (param) {
+            TURNER_TRY(expand_param(e, index, line, text, length));
+            continue;
+        }
         const char *directive = hash < 0 ? NULL : text + hash;
         if (directive && directive_is(directive, "include", &rest) && *rest != '<') {
             if (scan.continued || scan.block_comment)
@@ -343,6 +397,7 @@ void turner_shader_source_destroy(struct turner_shader_source *source)
         free(source->files[i].text);
     }
     free(source->files);
+    turner_params_destroy(&source->params);
     free(source->text);
     *source = (struct turner_shader_source){0};
 }

@@ -6,12 +6,14 @@
  * A file comes in only once, as with #pragma once: in the text every file stands between
  * #ifndef TURNER_FILE_n and #endif, so this holds for includes under #if, too.
  * #include <name> is left as it is: it belongs to C, where both languages share a file.
+ * A line //!PARAM (gpu/param.h) is replaced by the declaration it stands for.
  * #line N n, n the index into `files`, keeps the compiler's line numbers right. */
 #ifndef TURNER_GPU_INCLUDE_H
 #define TURNER_GPU_INCLUDE_H
 
 #include "base/embedded.h"
 #include "base/result.h"
+#include "gpu/param.h"
 
 #define TURNER_INCLUDE_DEPTH 32        /* files inside files */
 #define TURNER_SOURCE_BYTES (4u << 20) /* of the whole expanded text */
@@ -32,12 +34,15 @@ struct turner_shader_source {
     size_t length;
     struct turner_source_file *files; /* [0] is the first one; in order of inclusion */
     size_t file_count, file_capacity;
+    struct turner_params params; /* declared in them, in order; all have different names */
+    uint32_t param_words;        /* that they take */
 };
 
 /* Reads `name` and expands it. `source` owns everything; destroy it also after a failure: it then
  * holds the files read so far, so that a program that watches them sees the repair.
  * TURNER_BAD_INPUT for a folder that is not there or not readable, and with "file:line: …" and the
- * folders searched for a file that is not there or unreadable, a malformed #include, too much nesting or text, or a zero byte. */
+ * folders searched for a file that is not there or unreadable, a
+ * malformed #include or //!PARAM, one declared twice, too much nesting or text, or a zero byte. */
 enum turner_result turner_shader_source_create(struct turner_shader_source *source,
                                                const char *name, const char *const *folders,
                                                size_t folder_count);

@@ -26,6 +26,7 @@ static struct turner_gpu_dispatch dispatch_of(const struct turner_renderer *rend
     return (struct turner_gpu_dispatch){
         .scene = renderer->scene.arrays[TURNER_ARRAY_SCENE].address,
         .pixels = renderer->pixels.address,
+        .params = renderer->params.buffer.address,
         .counters = renderer->counters.address,
         .pixel_counts = renderer->pixel_counts.address,
         .first = 1,

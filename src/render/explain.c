@@ -31,6 +31,7 @@ static enum turner_result trace_pixel(const struct turner_recorder *recorder, in
     struct turner_gpu_dispatch push = {
         .scene = renderer->scene.arrays[TURNER_ARRAY_SCENE].address,
         .pixels = recorder->buffer.address,
+        .params = renderer->params.buffer.address,
         .counters = renderer->counters.address,
         .tile_x = (uint32_t)x,
         .tile_y = (uint32_t)y,

@@ -14,6 +14,7 @@ struct pass {
     struct turner_ids ids; /* when they are wanted */
     struct turner_kernel kernel;
     struct turner_program program;
+    struct turner_param_block params;
     struct turner_buffer features; /* a tile of turner_gpu_feature */
     int edge;                      /* of a tile */
 };
@@ -61,6 +62,7 @@ static enum turner_result draw_tile(struct pass *pass, int x, int y)
     struct turner_gpu_dispatch push = {
         .scene = renderer->scene.arrays[TURNER_ARRAY_SCENE].address,
         .pixels = pass->features.address,
+        .params = pass->params.buffer.address,
         .tile_x = (uint32_t)x,
         .tile_y = (uint32_t)y,
         .tile_width = (uint32_t)width,
@@ -90,11 +92,14 @@ static enum turner_result prepare(struct pass *pass, const struct turner_kernel 
         TURNER_TRY(turner_ids_create(&pass->ids, pass->scene));
     double start = turner_seconds();
     TURNER_TRY(turner_kernel_create_from(&pass->kernel, "features.comp", kernel->kind, options));
-    struct turner_kernel_constants constants =
-        turner_kernel_constants(&renderer->needs, renderer->flat.max_depth);
-    TURNER_TRY(turner_program_create(&pass->program, renderer->gpu, &pass->kernel.spirv,
-                                     constants.at, sizeof constants.at / sizeof *constants.at,
-                                     VK_NULL_HANDLE));
+    struct turner_constant constants[TURNER_KERNEL_CONSTANTS];
+    size_t count;
+    TURNER_TRY(turner_kernel_specialisation(constants, &count, &pass->kernel, &renderer->needs,
+                                            renderer->flat.max_depth, pass->scene));
+    TURNER_TRY(turner_param_block_create(&pass->params, renderer->gpu, &pass->kernel.params,
+                                         pass->scene));
+    TURNER_TRY(turner_program_create(&pass->program, renderer->gpu, &pass->kernel.spirv, constants,
+                                     count, VK_NULL_HANDLE));
     statistics->seconds_compile += turner_seconds() - start;
     if (renderer->ray_query)
         TURNER_TRY(turner_program_bind_acceleration(&pass->program, renderer->gpu,
@@ -133,6 +138,7 @@ enum turner_result turner_features_draw(struct turner_layers *layers,
         result = draw(&pass, options);
     statistics->seconds_layers += turner_seconds() - start;
     turner_buffer_destroy(renderer->gpu, &pass.features);
+    turner_param_block_destroy(renderer->gpu, &pass.params);
     turner_program_destroy(renderer->gpu, &pass.program);
     turner_kernel_destroy(&pass.kernel);
     turner_ids_destroy(&pass.ids);

@@ -21,7 +21,7 @@ static void file_of(char file[64], enum turner_hook hook)
     snprintf(file, 64, "user/%s.glsl", names[hook]);
 }
 
-static bool replaced(const struct turner_source_file *file)
+bool turner_source_replaced(const struct turner_source_file *file)
 {
     for (size_t i = 0; i < turner_embedded_shaders_count; i++) {
         if (strcmp(turner_embedded_shaders[i].name, file->name) == 0)
@@ -37,7 +37,7 @@ uint32_t turner_hooks_of(const struct turner_shader_source *source)
         for (enum turner_hook hook = 0; hook < TURNER_HOOKS; hook++) {
             char file[64];
             file_of(file, hook);
-            if (strcmp(source->files[i].name, file) == 0 && replaced(&source->files[i]))
+            if (strcmp(source->files[i].name, file) == 0 && turner_source_replaced(&source->files[i]))
                 hooks |= 1u << hook;
         }
     }

@@ -6,14 +6,27 @@
 #include "render/renderer.h"
 #include "../shaders/shared.h"
 
+static enum turner_result create_program(struct turner_post *post, struct turner_gpu *gpu,
+                                         const struct turner_kernel *kernel,
+                                         const struct turner_scene *scene)
+{
+    struct turner_constant constants[TURNER_PARAM_WORDS];
+    size_t count = 0;
+    TURNER_TRY(turner_params_constants(constants, &count, &kernel->params, scene));
+    TURNER_TRY(turner_param_block_create(&post->params, gpu, &kernel->params, scene));
+    return turner_program_create(&post->program, gpu, &kernel->spirv, constants, count,
+                                 VK_NULL_HANDLE);
+}
+
 static enum turner_result create(struct turner_post *post, struct turner_gpu *gpu,
+                                 const struct turner_scene *scene,
                                  const struct turner_render_options *options)
 {
     struct turner_kernel kernel;
     enum turner_result result = turner_kernel_create_from(&kernel, "post.comp", 0, options);
     if (result == TURNER_OK && kernel.hooks & 1u << TURNER_HOOK_POST) {
         post->wanted = true;
-        result = turner_program_create(&post->program, gpu, &kernel.spirv, NULL, 0, VK_NULL_HANDLE);
+        result = create_program(post, gpu, &kernel, scene);
     }
     turner_kernel_destroy(&kernel);
     if (result == TURNER_OK && post->wanted)
@@ -23,16 +36,18 @@ static enum turner_result create(struct turner_post *post, struct turner_gpu *gp
 }
 
 enum turner_result turner_post_create(struct turner_post *post, struct turner_gpu *gpu,
+                                      const struct turner_scene *scene,
                                       const struct turner_render_options *options)
 {
     uint32_t hooks;
     *post = (struct turner_post){0};
     TURNER_TRY(turner_hooks_find(&hooks, NULL, options));
-    return hooks & 1u << TURNER_HOOK_POST ? create(post, gpu, options) : TURNER_OK;
+    return hooks & 1u << TURNER_HOOK_POST ? create(post, gpu, scene, options) : TURNER_OK;
 }
 
 void turner_post_destroy(struct turner_gpu *gpu, struct turner_post *post)
 {
+    turner_param_block_destroy(gpu, &post->params);
     turner_buffer_destroy(gpu, &post->pixels);
     turner_program_destroy(gpu, &post->program);
     *post = (struct turner_post){0};
@@ -47,6 +62,7 @@ enum turner_result turner_post_draw(struct turner_image *image, struct turner_po
         size_t count = pixels - first < TURNER_POST_PIXELS ? pixels - first : TURNER_POST_PIXELS;
         struct turner_gpu_dispatch push = {
             .pixels = post->pixels.address,
+            .params = post->params.buffer.address,
             .tile_width = (uint32_t)image->width,
             .tile_height = (uint32_t)image->height,
             .first = (uint32_t)first,

@@ -2,18 +2,20 @@
 #ifndef TURNER_RENDER_POST_H
 #define TURNER_RENDER_POST_H
 
-#include "gpu/program.h"
+#include "render/params.h"
 
 #define TURNER_POST_PIXELS (1u << 18) /* at once */
 
 struct turner_post {
     bool wanted;
     struct turner_program program;
+    struct turner_param_block params;
     struct turner_buffer pixels;
 };
 
 /* Compiles it where the options' folders replace the hook; else `wanted` is false. */
 enum turner_result turner_post_create(struct turner_post *post, struct turner_gpu *gpu,
+                                      const struct turner_scene *scene,
                                       const struct turner_render_options *options);
 void turner_post_destroy(struct turner_gpu *gpu, struct turner_post *post);
 

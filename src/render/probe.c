@@ -16,6 +16,7 @@ enum turner_result turner_probe_trace(struct turner_gpu_probe *probes, size_t co
     struct turner_gpu_dispatch push = {
         .scene = renderer->scene.arrays[TURNER_ARRAY_SCENE].address,
         .pixels = buffer.address,
+        .params = renderer->params.buffer.address,
         .tile_width = (uint32_t)count,
     };
     TURNER_TRY_DONE(turner_gpu_begin(gpu, &commands));

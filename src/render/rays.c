@@ -49,6 +49,7 @@ enum turner_result turner_ray_list_trace(double *seconds, struct turner_ray_list
     struct turner_gpu_dispatch push = {
         .scene = renderer->scene.arrays[TURNER_ARRAY_SCENE].address,
         .pixels = list->rays.address,
+        .params = renderer->params.buffer.address,
         .counters = list->hits.address,
         .count = (uint32_t)list->count,
     };
@@ -83,6 +84,7 @@ enum turner_result turner_rays_send(struct turner_gpu_ray *rays, size_t *count, 
     struct turner_gpu_dispatch push = {
         .scene = renderer->scene.arrays[TURNER_ARRAY_SCENE].address,
         .pixels = list.rays.address,
+        .params = renderer->params.buffer.address,
         .count = (uint32_t)list.count,
         .tile_width = (uint32_t)renderer->settings.width,
         .tile_height = (uint32_t)renderer->settings.height,

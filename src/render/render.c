@@ -177,6 +177,20 @@ static enum turner_result warn_of_hooks(const struct turner_scene *scene,
     return TURNER_OK;
 }
 
+/* A misspelt name would otherwise do nothing. */
+static enum turner_result check_params(const struct turner_scene *scene,
+                                       const struct turner_render_options *options)
+{
+    struct turner_params params;
+    if (!scene->param_count)
+        return TURNER_OK;
+    enum turner_result result = turner_params_find(&params, NULL, options);
+    if (result == TURNER_OK)
+        result = turner_params_check(&params, scene);
+    turner_params_destroy(&params);
+    return result;
+}
+
 static enum turner_result draw(struct turner_image *image, const struct turner_scene *scene,
                                const struct turner_render_options *options,
                                struct turner_statistics *statistics,
@@ -200,6 +214,7 @@ static enum turner_result draw(struct turner_image *image, const struct turner_s
     if (!reference) /* that makes its own */
         TURNER_TRY(turner_image_create(image, scene->settings.width, scene->settings.height));
     TURNER_TRY(warn_of_hooks(scene, options, reference));
+    TURNER_TRY(check_params(scene, options));
     TURNER_TRY(reference ? draw_by_reference(image, scene, options, statistics)
                          : draw_on_device(image, scene, options, statistics, opening));
     inspect(image, statistics);

@@ -104,6 +104,8 @@ enum turner_result turner_kernel_create_from(struct turner_kernel *kernel, const
     TURNER_TRY_DONE(turner_shader_source_create(&source, file, options->shader_dirs,
                                                 options->shader_dir_count));
     kernel->hooks = turner_hooks_of(&source);
+    kernel->params = source.params;
+    source.params = (struct turner_params){0};
     result = options->no_cache ? turner_compile(&kernel->spirv, &source, defines, count)
                                : turner_compile_cached(&kernel->spirv, &kernel->cached, &source,
                                                        defines, count);
@@ -114,6 +116,7 @@ done:
 
 void turner_kernel_destroy(struct turner_kernel *kernel)
 {
+    turner_params_destroy(&kernel->params);
     turner_spirv_destroy(&kernel->spirv);
 }
 
@@ -135,6 +138,17 @@ struct turner_kernel_constants turner_kernel_constants(const struct turner_needs
     }};
 }
 
+enum turner_result turner_kernel_specialisation(
+    struct turner_constant constants[TURNER_KERNEL_CONSTANTS], size_t *count,
+    const struct turner_kernel *kernel, const struct turner_needs *needs, uint32_t bvh_depth,
+    const struct turner_scene *scene)
+{
+    struct turner_kernel_constants own = turner_kernel_constants(needs, bvh_depth);
+    *count = sizeof own.at / sizeof *own.at;
+    memcpy(constants, own.at, sizeof own.at);
+    return turner_params_constants(constants, count, &kernel->params, scene);
+}
+
 enum turner_result turner_kernel_size(size_t *bytes, const struct turner_kernel *kernel,
                                       const struct turner_needs *needs)
 {
@@ -151,18 +165,20 @@ enum turner_result turner_kernel_size(size_t *bytes, const struct turner_kernel 
 /* Drivers could fold the constants themselves, but those that run on a CPU do it each time anew. */
 static enum turner_result specialise(struct turner_renderer *renderer,
                                      const struct turner_kernel *kernel,
+                                     const struct turner_scene *scene,
                                      const struct turner_render_options *options,
                                      struct turner_statistics *statistics)
 {
-    struct turner_kernel_constants constants =
-        turner_kernel_constants(&renderer->needs, renderer->flat.max_depth);
-    const size_t count = sizeof constants.at / sizeof *constants.at;
+    struct turner_constant constants[TURNER_KERNEL_CONSTANTS];
+    size_t count;
     struct turner_spirv special;
+    TURNER_TRY(turner_kernel_specialisation(constants, &count, kernel, &renderer->needs,
+                                            renderer->flat.max_depth, scene));
     enum turner_result result =
         options->no_cache
-            ? turner_spirv_reduce(&special, &kernel->spirv, constants.at, count)
+            ? turner_spirv_reduce(&special, &kernel->spirv, constants, count)
             : turner_spirv_reduce_cached(&special, &statistics->kernel_cached, &kernel->spirv,
-                                         constants.at, count);
+                                         constants, count);
     TURNER_TRY(result);
     result = turner_program_create(&renderer->program, renderer->gpu, &special, NULL, 0,
                                    VK_NULL_HANDLE);
@@ -186,9 +202,10 @@ static enum turner_result create(struct turner_renderer *renderer,
                                   : kernel->kind & TURNER_PACKET ? TURNER_ORDER_WIDE
                                                                  : TURNER_ORDER_SAH));
     double built = turner_seconds();
-    TURNER_TRY(specialise(renderer, kernel, options, statistics));
+    TURNER_TRY(specialise(renderer, kernel, scene, options, statistics));
     double specialised = turner_seconds();
-    TURNER_TRY(turner_post_create(&renderer->post, gpu, options));
+    TURNER_TRY(turner_param_block_create(&renderer->params, gpu, &kernel->params, scene));
+    TURNER_TRY(turner_post_create(&renderer->post, gpu, scene, options));
     TURNER_TRY(turner_device_scene_create(&renderer->scene, gpu, scene, &renderer->flat,
                                           &renderer->needs, renderer->ray_query));
     turner_flat_release(&renderer->flat);
@@ -269,6 +286,15 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
     return result;
 }
 
+enum turner_result turner_renderer_set_params(struct turner_renderer *renderer,
+                                              const struct turner_scene *scene)
+{
+    if (renderer->accurate)
+        TURNER_TRY(turner_renderer_set_params(renderer->accurate, scene));
+    TURNER_TRY(turner_param_block_set(&renderer->params, scene));
+    return turner_param_block_set(&renderer->post.params, scene);
+}
+
 void turner_renderer_destroy(struct turner_renderer *renderer)
 {
     struct turner_gpu *gpu = renderer->gpu;
@@ -282,6 +308,7 @@ void turner_renderer_destroy(struct turner_renderer *renderer)
     turner_buffer_destroy(gpu, &renderer->pixels);
     turner_buffer_destroy(gpu, &renderer->positions);
     turner_device_scene_destroy(gpu, &renderer->scene);
+    turner_param_block_destroy(gpu, &renderer->params);
     turner_post_destroy(gpu, &renderer->post);
     turner_program_destroy(gpu, &renderer->program);
     turner_flat_destroy(&renderer->flat);

@@ -25,6 +25,7 @@ struct turner_kernel {
     unsigned kind; /* TURNER_RAY_QUERY | … */
     bool cached;   /* the cache had it (gpu/cache.h) */
     uint32_t hooks; /* of its files, those that are replaced (render/hooks.h) */
+    struct turner_params params; /* that its files declare */
     struct turner_spirv spirv;
 };
 
@@ -46,6 +47,15 @@ struct turner_kernel_constants {
 struct turner_kernel_constants turner_kernel_constants(const struct turner_needs *needs,
                                                        uint32_t bvh_depth);
 
+#define TURNER_KERNEL_CONSTANTS (5 + TURNER_PARAM_WORDS)
+
+/* The same, and the kernel's const parameters with the scene's values. TURNER_USAGE when one does
+ * not fit. */
+enum turner_result turner_kernel_specialisation(
+    struct turner_constant constants[TURNER_KERNEL_CONSTANTS], size_t *count,
+    const struct turner_kernel *kernel, const struct turner_needs *needs, uint32_t bvh_depth,
+    const struct turner_scene *scene);
+
 /* Bytes of SPIR-V that are left of the kernel once it is specialised and optimised. No device. */
 enum turner_result turner_kernel_size(size_t *bytes, const struct turner_kernel *kernel,
                                       const struct turner_needs *needs);
@@ -57,6 +67,7 @@ struct turner_renderer {
     struct turner_flat flat;
     struct turner_device_scene scene;
     struct turner_program program;
+    struct turner_param_block params;
     struct turner_post post;
     struct turner_buffer pixels;    /* of one tile, or results of one list */
     struct turner_buffer positions; /* of one list; adaptive pictures only */
@@ -93,6 +104,11 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
                                           const struct turner_render_options *options,
                                           struct turner_statistics *statistics);
 void turner_renderer_destroy(struct turner_renderer *renderer);
+
+/* Takes the scene's values of live parameters, nothing is compiled; not while something is traced.
+ * TURNER_USAGE when one does not fit. Those that are const stay as they were compiled in. */
+enum turner_result turner_renderer_set_params(struct turner_renderer *renderer,
+                                              const struct turner_scene *scene);
 
 /* Runs the kernel of render.comp on no pixel: a driver that compiles at the first dispatch does so
  * then. */

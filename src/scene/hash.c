@@ -168,5 +168,11 @@ uint64_t turner_scene_hash(const struct turner_scene *scene)
     add_count(&sum, scene->light_count);
     for (size_t i = 0; i < scene->light_count; i++)
         add_light(&sum, &scene->lights[i]);
+    for (size_t i = 0; i < scene->param_count; i++) {
+        sum.hash = turner_hash_text(sum.hash, scene->params[i].name);
+        sum.hash = turner_hash_text(sum.hash, scene->params[i].value);
+    }
+    if (scene->shader_hash)
+        add_count(&sum, scene->shader_hash);
     return sum.hash;
 }

@@ -1,4 +1,5 @@
 /* The root of a scene file, and what stands there once: settings, camera, background. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -176,6 +177,41 @@ static enum turner_result read_background(struct json_reader *reader,
     return TURNER_OK;
 }
 
+/* ---- params ---- */
+
+/* Any names: the shaders know which there are. Values are kept as the command line writes them. */
+static enum turner_result read_param(struct json_reader *reader, const struct json_value *value)
+{
+    char text[128];
+    const char *string = text;
+    double n[3];
+    if (cJSON_IsString(value->item)) {
+        TURNER_TRY(json_read_string(&string, reader, value));
+    } else if (cJSON_IsBool(value->item)) {
+        snprintf(text, sizeof text, "%s", cJSON_IsTrue(value->item) ? "true" : "false");
+    } else if (cJSON_IsNumber(value->item)) {
+        TURNER_TRY(json_read_number(n, reader, value, (struct json_range)JSON_UNBOUNDED));
+        snprintf(text, sizeof text, "%.17g", n[0]);
+    } else if (cJSON_IsArray(value->item)) {
+        TURNER_TRY(json_read_numbers(n, 3, reader, value));
+        snprintf(text, sizeof text, "%.17g,%.17g,%.17g", n[0], n[1], n[2]);
+    } else {
+        return json_fail(reader, value, "a parameter's value is a number, true or false, a string, "
+                                        "or a colour [r, g, b]");
+    }
+    turner_scene_set_param(reader->scene, value->item->string, string);
+    return TURNER_OK;
+}
+
+static enum turner_result read_params(struct json_reader *reader, const struct json_value *value)
+{
+    size_t count;
+    TURNER_TRY(json_expect_object(&count, reader, value, 1024));
+    for (struct json_value m = json_first(value); m.item; m = json_next(m))
+        TURNER_TRY(read_param(reader, &m));
+    return TURNER_OK;
+}
+
 /* ---- the root ---- */
 
 struct scene_json {
@@ -188,6 +224,7 @@ static const struct json_key scene_keys[] = {
     JSON_KEY_ANY("version", true),
     JSON_KEY("description", JSON_STRING, false, offsetof(struct scene_json, description)),
     JSON_KEY("shaders", JSON_STRING, false, offsetof(struct scene_json, shaders)),
+    JSON_KEY_ANY("params", false),
     JSON_KEY_ANY("settings", false),
     JSON_KEY_ANY("camera", true),
     JSON_KEY("ambient", JSON_COLOR, false, offsetof(struct scene_json, ambient)),
@@ -268,11 +305,12 @@ static enum turner_result read_scene(struct json_reader *reader, const struct js
         const char *key;
         enum turner_result (*read)(struct json_reader *reader, const struct json_value *value);
     } parts[] = {
-        {"settings", read_settings},         {"media", json_read_media},
-        {"camera", read_camera},             {"background", read_background},
-        {"materials", json_read_materials},  {"meshes", json_read_meshes},
-        {"primitives", json_read_world},     {"groups", json_read_groups},
-        {"instances", json_read_instances},  {"lights", json_read_lights},
+        {"params", read_params},             {"settings", read_settings},
+        {"media", json_read_media},          {"camera", read_camera},
+        {"background", read_background},     {"materials", json_read_materials},
+        {"meshes", json_read_meshes},        {"primitives", json_read_world},
+        {"groups", json_read_groups},        {"instances", json_read_instances},
+        {"lights", json_read_lights},
     };
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         const struct json_value *value = json_member(&object, parts[i].key);

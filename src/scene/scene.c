@@ -59,6 +59,11 @@ void turner_scene_destroy(struct turner_scene *scene)
         return;
     free(scene->path);
     free(scene->description);
+    for (size_t i = 0; i < scene->param_count; i++) {
+        free(scene->params[i].name);
+        free(scene->params[i].value);
+    }
+    free(scene->params);
     free(scene->shaders);
     for (size_t i = 0; i < scene->media_count; i++)
         free(scene->media[i].name);

@@ -203,6 +203,11 @@ struct turner_background {
     uint32_t image;                 /* environment: index into texture_images */
 };
 
+/* What the scene says of a parameter of its shaders (docs/shaders.md). */
+struct turner_scene_param {
+    char *name, *value;
+};
+
 struct turner_scene {
     char *path, *description; /* either may be NULL */
     char *shaders; /* folder of the scene's own, as it is to be opened; NULL: none is said */
@@ -218,14 +223,23 @@ struct turner_scene {
     struct turner_instance *instances; /* of the other groups; an instance of groups[0] with the
                                           identity is implied and not listed */
     struct turner_light *lights;
+    struct turner_scene_param *params;
+    uint64_t shader_hash; /* of shaders that are not turner's own; 0: there are none, or nobody has
+                             looked (render/params.h) */
     size_t media_count, material_count, texture_image_count, plane_count, group_count,
-        instance_count, light_count;
+        instance_count, light_count, param_count;
     size_t media_capacity, material_capacity, texture_image_capacity, plane_capacity,
-        group_capacity, instance_capacity, light_capacity;
+        group_capacity, instance_capacity, light_capacity, param_capacity;
 };
 
 /* An empty scene with default settings, a camera at (0,0,5) looking at the origin, and group 0. */
 struct turner_scene *turner_scene_create(void);
+
+/* Gives a parameter of the shaders a value, in place of one it may have; which there are, and what
+ * they take, only the shaders say. */
+void turner_scene_set_param(struct turner_scene *scene, const char *name, const char *value);
+/* "name=value" in one; TURNER_USAGE when it is not. */
+enum turner_result turner_scene_assign_param(struct turner_scene *scene, const char *assignment);
 
 /* Checks every statement above, finiteness of every number and every limit. The message names the
  * thing ("sphere 3 of group \"tree\": …") for formats that have no better place to point at. */

@@ -1,4 +1,5 @@
 # Shaders that users write: hooks, parameters, what watches them.
+turner_unit_test(shader_param ${CMAKE_CURRENT_LIST_DIR}/test_param.c LAYERS base image gpu)
 if(NOT TARGET turner)
     return()
 endif()
@@ -10,3 +11,4 @@ function(turner_shader_test name script)
 endfunction()
 turner_shader_test(hooks hooks.py
     plain brdf surface background light post folders reference everything)
+turner_shader_test(params params.py values constants metadata everywhere listed)
