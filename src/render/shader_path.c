@@ -9,8 +9,18 @@
 
 #include "base/memory.h"
 
+static bool same_folder(const char *a, const char *b)
+{
+    struct stat x, y;
+    return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
 static void add(struct turner_shader_path *path, const char *folder)
 {
+    for (size_t i = 0; i < path->count; i++) {
+        if (same_folder(path->folders[i], folder))
+            return; /* found there already */
+    }
     *TURNER_PUSH(path->folders, path->count, path->capacity) = turner_strdup(folder);
 }
 

@@ -163,7 +163,7 @@ static void root(void **state)
         {HEAD ", @\"Ambient\": 1}", "unknown key \"Ambient\", did you mean \"ambient\"? (at "
                                     "$.Ambient)"},
         {HEAD ", @\"fog\": {}}",
-         "unknown key \"fog\"; known for a scene: \"$schema\", \"version\", \"description\", "
+         "unknown key \"fog\"; known for a scene: \"$schema\", \"version\", \"description\", \"shaders\", \"params\", "
          "\"settings\", \"camera\", \"ambient\", \"background\", \"media\", \"materials\", "
          "\"meshes\", \"primitives\", \"groups\", \"instances\", \"lights\" (at $.fog)"},
         {HEAD ",\n \"ambient\": 1, @\"ambient\": 2}",
