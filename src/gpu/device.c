@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "gpu/fastest.h"
 #include "gpu/internal.h"
 
 static enum turner_result fail_no_driver(void)
@@ -60,8 +61,10 @@ static enum turner_result list_devices(VkInstance instance, VkPhysicalDevice **d
     *devices = turner_calloc(*count, sizeof **devices);
     *infos = turner_calloc(*count, sizeof **infos);
     VK_TRY(vkEnumeratePhysicalDevices(instance, count, *devices));
-    for (uint32_t i = 0; i < *count; i++)
+    for (uint32_t i = 0; i < *count; i++) {
         TURNER_TRY(turner_gpu_describe(&(*infos)[i], (*devices)[i]));
+        (*infos)[i].fastest = turner_fastest_load(&(*infos)[i]);
+    }
     return TURNER_OK;
 }
 

@@ -22,6 +22,7 @@ struct turner_gpu_info {
     uint32_t subgroup_size;
     bool packets; /* subgroups of 8 lanes, never other, that a program may insist on being full, and
                      whose lanes can hand each other numbers */
+    enum turner_traversal fastest; /* as measured (gpu/fastest.h), or AUTO */
     uint32_t max_workgroup_size[3], max_workgroup_invocations, max_workgroup_count[3];
     uint32_t max_push_constants; /* bytes */
     uint64_t max_storage_range;  /* bytes one descriptor reaches; addresses have no such limit */

@@ -12,6 +12,7 @@
 #include "render/features.h"
 #include "render/hooks.h"
 #include "render/layers.h"
+#include "render/measure.h"
 #include "render/opening.h"
 #include "render/renderer.h"
 #include "render/shader_path.h"
@@ -79,6 +80,20 @@ static enum turner_result draw_by_reference(struct turner_image *image,
     return TURNER_OK;
 }
 
+/* Which is faster, ray queries in hardware or our own hierarchy, only measuring tells: once on each
+ * device. A CPU's ray queries are no hardware. Without an answer auto goes by rule. */
+static void measure_once(struct turner_gpu *gpu, const struct turner_methods *methods,
+                         const struct turner_render_options *options)
+{
+    struct turner_traversal_rate rates[TURNER_TRAVERSALS_MEASURED];
+    size_t count;
+    if (options->traversal == TURNER_TRAVERSAL_AUTO &&
+        methods->traversal == TURNER_TRAVERSAL_AUTO &&
+        gpu->info.fastest == TURNER_TRAVERSAL_AUTO && gpu->info.ray_query && !gpu->info.software &&
+        !options->no_cache)
+        (void)turner_measure_traversals(rates, &count, gpu, options);
+}
+
 /* Shaders are compiled while the device opens, for the kernel that a device on a CPU would get;
  * whether that was right is known afterwards. Either's failure counts in the order of the steps. */
 static enum turner_result open_and_compile(struct turner_kernel *kernel,
@@ -102,6 +117,7 @@ static enum turner_result open_and_compile(struct turner_kernel *kernel,
 
     enum turner_result result;
     TURNER_TRY_DONE(turner_opening_finish(opening));
+    measure_once(&opening->gpu, methods, options);
     TURNER_TRY_DONE(
         turner_choose_kernel(&kind, &opening->gpu.info, methods, options->traversal));
     if (kind != guess) {

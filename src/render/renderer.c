@@ -25,8 +25,9 @@ enum turner_result turner_choose_traversal(enum turner_traversal *chosen,
                                            const struct turner_gpu_info *info,
                                            enum turner_traversal wanted)
 {
-    /* a CPU is faster at our own hierarchy (docs/performance.md), hardware at its own */
-    *chosen = wanted;
+    *chosen = wanted == TURNER_TRAVERSAL_AUTO ? info->fastest : wanted;
+    wanted = *chosen;
+    /* not measured: a CPU is faster at our own hierarchy (docs/performance.md), hardware at its own */
     if (wanted == TURNER_TRAVERSAL_AUTO && info->ray_query && !info->software)
         *chosen = TURNER_TRAVERSAL_RAY_QUERY;
     else if (wanted == TURNER_TRAVERSAL_AUTO || wanted == TURNER_TRAVERSAL_BVH)

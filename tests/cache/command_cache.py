@@ -1,4 +1,4 @@
-"""command_cache.py reuse | broken | key | pair | off: pictures, whatever the cache is like.
+"""command_cache.py reuse | broken | key | pair | off | fastest: pictures, whatever the cache is like.
 
 Environment: TURNER, the command; TURNER_SOURCE. Exit status 77 without a Vulkan device.
 """
@@ -161,8 +161,37 @@ def off():
     assert not pathlib.Path("cache").exists() and before
 
 
+def devices(*options, **changes):
+    env = dict(os.environ, TURNER_CACHE_DIR=str(pathlib.Path("cache").absolute()), **changes)
+    done = subprocess.run([TURNER, "devices", *options], capture_output=True, text=True,
+                          timeout=200, env=env)
+    print("$ turner devices", *options, f"=> {done.returncode}", done.stdout, done.stderr)
+    if done.returncode == 4 and "no Vulkan driver" in done.stderr:
+        sys.exit(77)
+    assert done.returncode == 0
+    return done.stdout
+
+
+def fastest():
+    """What was measured is kept, and what auto takes; a broken entry is none."""
+    assert "as measured" not in devices()
+    said = devices("--measure")
+    rates = re.findall(r"(bvh_lane|bvh_packet|ray_query) +([0-9.]+) million rays", said)
+    assert "bvh_lane" in dict(rates) and all(float(rate) > 0 for _, rate in rates)
+    assert [float(rate) for _, rate in rates] == sorted((float(r) for _, r in rates), reverse=True)
+    assert f"auto        {rates[0][0]} from now on" in said
+    assert f"auto        {rates[0][0]}, as measured" in devices()
+    render()
+    assert json.loads(pathlib.Path("s.json").read_text())["traversal"] == rates[0][0]
+    for entry in entries():
+        if entry.name.startswith("fastest"):
+            entry.write_bytes(entry.read_bytes()[:-1])
+    assert "as measured" not in devices()
+
+
 def main():
-    tests = {"reuse": reuse, "broken": broken, "key": key, "pair": pair, "off": off}
+    tests = {"reuse": reuse, "broken": broken, "key": key, "pair": pair, "off": off,
+             "fastest": fastest}
     os.environ["LC_ALL"] = "C"
     with tempfile.TemporaryDirectory(prefix="turner-cache-") as folder:
         os.chdir(folder)

@@ -17,6 +17,7 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "gpu/cache.h"
+#include "gpu/fastest.h"
 
 static char folder[64], entries[128];
 
@@ -129,6 +130,27 @@ static void comes_back(void **state)
     assert_false(turner_cache_load(&bytes, &size, "sort", parts, 2));
     empty(entries);
     assert_false(found("a", "other"));
+}
+
+static void the_fastest_of_a_device(void **state)
+{
+    (void)state;
+    struct turner_gpu_info info = {.name = "a", .driver = "b", .ray_query = true};
+    assert_int_equal(turner_fastest_load(&info), TURNER_TRAVERSAL_AUTO);
+    turner_fastest_store(&info, TURNER_TRAVERSAL_RAY_QUERY);
+    assert_int_equal(turner_fastest_load(&info), TURNER_TRAVERSAL_RAY_QUERY);
+    turner_fastest_store(&info, TURNER_TRAVERSAL_BVH_LANE);
+    assert_int_equal(turner_fastest_load(&info), TURNER_TRAVERSAL_BVH_LANE);
+
+    struct turner_gpu_info other = info;
+    strcpy(other.driver, "c");
+    assert_int_equal(turner_fastest_load(&other), TURNER_TRAVERSAL_AUTO);
+    turner_fastest_store(&info, TURNER_TRAVERSAL_RAY_QUERY);
+    info.ray_query = false; /* no longer */
+    assert_int_equal(turner_fastest_load(&info), TURNER_TRAVERSAL_AUTO);
+    turner_fastest_store(&info, TURNER_TRAVERSAL_BVH); /* which is none of the three */
+    assert_int_equal(turner_fastest_load(&info), TURNER_TRAVERSAL_AUTO);
+    empty(entries);
 }
 
 static void no_broken_entry_is_used(void **state)
@@ -296,6 +318,7 @@ static void use_keeps(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_fastest_of_a_device),
         cmocka_unit_test(comes_back),
         cmocka_unit_test(no_broken_entry_is_used),
         cmocka_unit_test(no_entry_is_taken_for_another),

@@ -68,6 +68,30 @@ static void bits_of_scenes(void **state)
     }
 }
 
+static void auto_takes_what_was_measured(void **state)
+{
+    (void)state;
+    struct turner_gpu_info info = {.ray_query = true, .packets = true, .software = true};
+    static const struct {
+        bool software;
+        enum turner_traversal fastest, chosen;
+    } cases[] = {
+        {true, TURNER_TRAVERSAL_AUTO, TURNER_TRAVERSAL_BVH_PACKET},
+        {false, TURNER_TRAVERSAL_AUTO, TURNER_TRAVERSAL_RAY_QUERY},
+        {true, TURNER_TRAVERSAL_RAY_QUERY, TURNER_TRAVERSAL_RAY_QUERY},
+        {false, TURNER_TRAVERSAL_BVH_LANE, TURNER_TRAVERSAL_BVH_LANE},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        enum turner_traversal chosen;
+        info.software = cases[i].software;
+        info.fastest = cases[i].fastest;
+        assert_ok(turner_choose_traversal(&chosen, &info, TURNER_TRAVERSAL_AUTO));
+        assert_int_equal(chosen, cases[i].chosen);
+        assert_ok(turner_choose_traversal(&chosen, &info, TURNER_TRAVERSAL_BVH));
+        assert_int_equal(chosen, TURNER_TRAVERSAL_BVH_PACKET); /* who asks for it gets it */
+    }
+}
+
 static void every_bit_has_a_name(void **state)
 {
     (void)state;
@@ -155,6 +179,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bits_of_scenes),
+        cmocka_unit_test(auto_takes_what_was_measured),
         cmocka_unit_test(every_bit_has_a_name),
         cmocka_unit_test(bounds_of_loops),
         cmocka_unit_test(what_is_not_needed_is_not_there),
