@@ -16,6 +16,7 @@ enum turner_result turner_cmd_params(int argc, char **argv);
 enum turner_result turner_cmd_stability(int argc, char **argv);
 enum turner_result turner_cmd_export(int argc, char **argv);
 enum turner_result turner_cmd_bench(int argc, char **argv);
+enum turner_result turner_cmd_view(int argc, char **argv);
 
 /* What a subcommand says of an option getopt_long did not understand: TURNER_USAGE naming the
  * nearest way out ("turner render --help"). `argv[optind-1]` is the culprit. */
@@ -47,6 +48,12 @@ void turner_progress_end(struct turner_progress_bar *bar);
 /* Writes statistics and settings as JSON, whole or not at all; `path` "-" is stdout. */
 enum turner_result turner_statistics_write(const char *path, const struct turner_scene *scene,
                                            const struct turner_statistics *statistics);
+
+/* Writes a picture with its settings, version and device as metadata; `layers` may be NULL. */
+enum turner_result turner_picture_write(const char *path, const struct turner_scene *scene,
+                                        const struct turner_image *image,
+                                        const struct turner_statistics *statistics,
+                                        const struct turner_layers *layers);
 
 /* The scene's settings as they will be used, as the JSON of a "settings" object (free). */
 char *turner_settings_json(const struct turner_scene *scene);

@@ -115,34 +115,6 @@ static enum turner_result take(struct arguments *a, int option, char **argv)
     return turner_scene_option_take(&a->options, option, argv);
 }
 
-static enum turner_result write_picture(const struct arguments *a,
-                                        const struct turner_scene *scene,
-                                        const struct turner_image *image,
-                                        struct turner_statistics *statistics)
-{
-    char *settings = turner_settings_json(scene);
-    struct turner_image_text texts[] = {
-        {"turner:version", turner_version()},
-        {"turner:device", statistics->device},
-        {"turner:traversal", statistics->traversal},
-        {"turner:settings", settings},
-    };
-    struct turner_image_channel channels[TURNER_LAYER_CHANNELS];
-    struct turner_image_encoding encoding = {
-        .exposure = scene->settings.exposure,
-        .linear = scene->settings.transfer == TURNER_TRANSFER_LINEAR,
-        .texts = texts,
-        .text_count = sizeof texts / sizeof *texts,
-        .channels = channels,
-        .channel_count = turner_layers_channels(channels, &a->layers),
-    };
-    double start = turner_seconds();
-    enum turner_result result = turner_image_write(image, a->output, &encoding);
-    statistics->seconds_write = turner_seconds() - start;
-    free(settings);
-    return result;
-}
-
 static void print_summary(const struct arguments *a, const struct turner_statistics *s)
 {
     uint64_t rays = s->camera_rays + s->reflected_rays + s->refracted_rays + s->shadow_rays;
@@ -185,7 +157,9 @@ static enum turner_result render(struct arguments *a, struct turner_scene *scene
     turner_progress_end(&bar);
     if (result != TURNER_OK)
         goto done;
-    TURNER_TRY_DONE(write_picture(a, scene, &image, statistics));
+    double start = turner_seconds();
+    TURNER_TRY_DONE(turner_picture_write(a->output, scene, &image, statistics, &a->layers));
+    statistics->seconds_write = turner_seconds() - start;
     statistics->seconds_start = a->loading;
     statistics->seconds_whole = a->loading + turner_seconds() - a->start;
     if (a->stats)

@@ -14,6 +14,7 @@ static const struct {
     enum turner_result (*run)(int argc, char **argv);
 } commands[] = {
     {"render", "draw a scene into a picture", turner_cmd_render},
+    {"view", "show a scene in a window, and move through it", turner_cmd_view},
     {"compare", "say how much two pictures differ", turner_cmd_compare},
     {"explain", "list the rays that made a pixel, and where they go wrong", turner_cmd_explain},
     {"check", "read scenes or shaders and say what is wrong with them", turner_cmd_check},

@@ -251,10 +251,10 @@ static uint32_t max_visits(const struct turner_flat *flat, bool ray_query)
     return visits < UINT32_MAX ? (uint32_t)visits + 1 : UINT32_MAX;
 }
 
-static enum turner_result upload_scene(struct turner_device_scene *device, struct turner_gpu *gpu,
-                                       const struct turner_scene *scene,
-                                       const struct turner_flat *flat,
-                                       const struct turner_needs *needs, bool ray_query)
+static struct turner_gpu_scene scene_block(const struct turner_device_scene *device,
+                                           const struct turner_scene *scene,
+                                           const struct turner_flat *flat,
+                                           const struct turner_needs *needs, bool ray_query)
 {
     const struct turner_buffer *arrays = device->arrays;
     const struct turner_settings *settings = &scene->settings;
@@ -290,7 +290,17 @@ static enum turner_result upload_scene(struct turner_device_scene *device, struc
     set_vec3(block.ambient, scene->ambient);
     set_camera(&block, scene);
     set_background(&block, &scene->background);
-    return upload(device, gpu, TURNER_ARRAY_SCENE, &block, sizeof block);
+    return block;
+}
+
+enum turner_result turner_device_scene_look(struct turner_device_scene *device,
+                                            struct turner_gpu *gpu,
+                                            const struct turner_scene *scene,
+                                            const struct turner_flat *flat,
+                                            const struct turner_needs *needs, bool ray_query)
+{
+    struct turner_gpu_scene block = scene_block(device, scene, flat, needs, ray_query);
+    return turner_buffer_upload(gpu, &device->arrays[TURNER_ARRAY_SCENE], 0, &block, sizeof block);
 }
 
 enum turner_result turner_device_scene_create(struct turner_device_scene *device,
@@ -323,7 +333,8 @@ enum turner_result turner_device_scene_create(struct turner_device_scene *device
         TURNER_TRY(upload_rests(device, gpu, scene, flat));
     if (ray_query)
         TURNER_TRY(turner_device_scene_build(device, gpu, flat));
-    return upload_scene(device, gpu, scene, flat, needs, ray_query);
+    struct turner_gpu_scene block = scene_block(device, scene, flat, needs, ray_query);
+    return upload(device, gpu, TURNER_ARRAY_SCENE, &block, sizeof block);
 }
 
 void turner_device_scene_destroy(struct turner_gpu *gpu, struct turner_device_scene *device)

@@ -39,6 +39,13 @@ enum turner_result turner_device_scene_create(struct turner_device_scene *device
                                               const struct turner_scene *scene,
                                               const struct turner_flat *flat,
                                               const struct turner_needs *needs, bool ray_query);
+/* Uploads only what stands in the scene once: camera, background, ambient light, the settings. The
+ * rest is that of the scene it was created with, `flat` and `needs`, too. */
+enum turner_result turner_device_scene_look(struct turner_device_scene *device,
+                                            struct turner_gpu *gpu,
+                                            const struct turner_scene *scene,
+                                            const struct turner_flat *flat,
+                                            const struct turner_needs *needs, bool ray_query);
 void turner_device_scene_destroy(struct turner_gpu *gpu, struct turner_device_scene *device);
 
 /* The acceleration structures alone (acceleration.c). */

@@ -17,6 +17,16 @@
 #define LIST_FIRST 4096
 #define LIST_MIN 256
 
+static double seconds_long(const struct turner_renderer *renderer)
+{
+    return renderer->piece > 0 ? renderer->piece : SECONDS_LONG;
+}
+
+static double seconds_short(const struct turner_renderer *renderer)
+{
+    return renderer->piece > 0 ? renderer->piece / 4 : SECONDS_SHORT;
+}
+
 struct tile {
     int x, y, width, height;
 };
@@ -109,9 +119,9 @@ enum turner_result turner_renderer_trace_counted(struct turner_renderer *rendere
                               counts ? counts + done : NULL));
         double seconds = turner_seconds() - start;
         done += size;
-        if (seconds > SECONDS_LONG && piece > LIST_MIN)
+        if (seconds > seconds_long(renderer) && piece > LIST_MIN)
             piece /= 2;
-        else if (seconds < SECONDS_SHORT && whole && piece < TURNER_LIST_MAX)
+        else if (seconds < seconds_short(renderer) && whole && piece < TURNER_LIST_MAX)
             piece *= 2;
     }
     return TURNER_OK;
@@ -178,7 +188,7 @@ static enum turner_result draw_regular(struct turner_renderer *renderer, struct 
                                        const struct turner_render_options *options,
                                        struct turner_statistics *statistics)
 {
-    int edge = renderer->tile ? renderer->tile : TILE_FIRST;
+    int edge = renderer->tile ? renderer->tile : renderer->edge ? renderer->edge : TILE_FIRST;
     double pixels = (double)image->width * image->height, done = 0;
 
     /* rows of tiles; the edge changes between rows only, so that tiles cover the picture */
@@ -194,9 +204,9 @@ static enum turner_result draw_regular(struct turner_renderer *renderer, struct 
                 double before = turner_seconds();
                 TURNER_TRY(trace_sample(renderer, tile, sample));
                 double seconds = turner_seconds() - before;
-                if (!renderer->tile && seconds > SECONDS_LONG && edge > TILE_MIN)
+                if (!renderer->tile && seconds > seconds_long(renderer) && edge > TILE_MIN)
                     next_edge = edge / 2;
-                else if (!renderer->tile && seconds < SECONDS_SHORT && edge < TURNER_TILE_MAX &&
+                else if (!renderer->tile && seconds < seconds_short(renderer) && edge < TURNER_TILE_MAX &&
                          next_edge >= edge)
                     next_edge = edge * 2;
                 double share =
@@ -211,6 +221,7 @@ static enum turner_result draw_regular(struct turner_renderer *renderer, struct 
             statistics->seconds_read_back += turner_seconds() - traced;
             done += (double)tile.width * tile.height;
         }
+        renderer->edge = next_edge;
     }
     return TURNER_OK;
 }

@@ -5,7 +5,7 @@
 
 #include <pthread.h>
 
-#include "gpu/device.h"
+#include "render/renderer.h"
 
 struct turner_opening {
     const char *device; /* as for turner_gpu_create */
@@ -22,6 +22,14 @@ void turner_opening_start(struct turner_opening *opening, const char *device);
 
 /* Waits for it; the device is used from the caller's thread from here on. */
 enum turner_result turner_opening_finish(struct turner_opening *opening);
+
+/* Compiles meanwhile, waits for it, and has the kernel for these methods in the end. Adds to
+ * seconds_compile. The caller destroys the kernel, also after a failure. */
+enum turner_result turner_opening_compile(struct turner_kernel *kernel,
+                                          struct turner_opening *opening,
+                                          const struct turner_methods *methods,
+                                          const struct turner_render_options *options,
+                                          struct turner_statistics *statistics);
 
 /* Waits, if need be, and closes the device. */
 void turner_opening_destroy(struct turner_opening *opening);

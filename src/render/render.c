@@ -96,11 +96,11 @@ static void measure_once(struct turner_gpu *gpu, const struct turner_methods *me
 
 /* Shaders are compiled while the device opens, for the kernel that a device on a CPU would get;
  * whether that was right is known afterwards. Either's failure counts in the order of the steps. */
-static enum turner_result open_and_compile(struct turner_kernel *kernel,
-                                           struct turner_opening *opening,
-                                           const struct turner_methods *methods,
-                                           const struct turner_render_options *options,
-                                           struct turner_statistics *statistics)
+enum turner_result turner_opening_compile(struct turner_kernel *kernel,
+                                          struct turner_opening *opening,
+                                          const struct turner_methods *methods,
+                                          const struct turner_render_options *options,
+                                          struct turner_statistics *statistics)
 {
     static const struct turner_gpu_info likely = {
         .software = true, .packets = true, .ray_query = true, .float64 = true};
@@ -144,7 +144,7 @@ static enum turner_result draw_on_device(struct turner_image *image,
     struct turner_renderer renderer = {0};
     enum turner_result result;
     const struct turner_methods *methods = &scene->settings.methods;
-    TURNER_TRY_DONE(open_and_compile(&kernel, opening, methods, options, statistics));
+    TURNER_TRY_DONE(turner_opening_compile(&kernel, opening, methods, options, statistics));
     statistics->seconds_device = opening->seconds;
     snprintf(statistics->device, sizeof statistics->device, "%s", gpu->info.name);
     snprintf(statistics->driver, sizeof statistics->driver, "%s", gpu->info.driver);

@@ -215,7 +215,7 @@ static enum turner_result create(struct turner_renderer *renderer,
                                                     renderer->scene.top.handle));
     bool adaptive = turner_adaptive_wanted(&renderer->settings);
     uint64_t edge = (uint64_t)(renderer->tile ? renderer->tile : TURNER_TILE_MAX);
-    uint64_t pixels = adaptive ? TURNER_LIST_MAX : edge * edge;
+    uint64_t pixels = adaptive && edge * edge < TURNER_LIST_MAX ? TURNER_LIST_MAX : edge * edge;
     TURNER_TRY(turner_buffer_create(&renderer->pixels, gpu, pixels * 4 * sizeof(float), 0,
                                     TURNER_MEMORY_HOST, "a tile of pixels"));
     TURNER_TRY(turner_buffer_create(&renderer->counters, gpu, sizeof(struct turner_gpu_counters),
@@ -258,6 +258,16 @@ static enum turner_result create_accurate(struct turner_renderer *renderer,
     return TURNER_OK;
 }
 
+/* The scene with the depth that its settings come to; shares all but them. */
+static struct turner_scene deep_enough(const struct turner_scene *scene)
+{
+    struct turner_scene deep = *scene;
+    if (deep.settings.error > 0)
+        turner_follow_settings(&deep.settings,
+                               turner_needs_of(scene).bits & TURNER_NEEDS_BRANCHING);
+    return deep;
+}
+
 enum turner_result turner_renderer_create(struct turner_renderer *renderer, struct turner_gpu *gpu,
                                           const struct turner_kernel *kernel,
                                           const struct turner_scene *scene,
@@ -269,10 +279,7 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
            kind_of(&scene->settings.methods));
     renderer->gpu = gpu;
     renderer->ray_query = kernel->kind & TURNER_RAY_QUERY;
-    struct turner_scene deep = *scene; /* shares all but its settings */
-    if (deep.settings.error > 0)
-        turner_follow_settings(&deep.settings,
-                               turner_needs_of(scene).bits & TURNER_NEEDS_BRANCHING);
+    struct turner_scene deep = deep_enough(scene);
     renderer->needs = turner_needs_of(&deep);
     turner_hooks_widen(&renderer->needs, kernel->hooks, &deep);
     renderer->needs.pixel_counts = turner_layers_want(options->layers, TURNER_LAYERS_OF_RAYS);
@@ -294,6 +301,18 @@ enum turner_result turner_renderer_set_params(struct turner_renderer *renderer,
         TURNER_TRY(turner_renderer_set_params(renderer->accurate, scene));
     TURNER_TRY(turner_param_block_set(&renderer->params, scene));
     return turner_param_block_set(&renderer->post.params, scene);
+}
+
+enum turner_result turner_renderer_look(struct turner_renderer *renderer,
+                                        const struct turner_scene *scene)
+{
+    struct turner_scene deep = deep_enough(scene);
+    assert(!turner_adaptive_wanted(&deep.settings) || renderer->positions.buffer);
+    renderer->settings = deep.settings;
+    renderer->glow = turner_follow_glow(scene);
+    TURNER_TRY(turner_device_scene_look(&renderer->scene, renderer->gpu, &deep, &renderer->flat,
+                                        &renderer->needs, renderer->ray_query));
+    return renderer->accurate ? turner_renderer_look(renderer->accurate, scene) : TURNER_OK;
 }
 
 void turner_renderer_destroy(struct turner_renderer *renderer)

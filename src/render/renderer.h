@@ -77,7 +77,10 @@ struct turner_renderer {
     struct turner_renderer *accurate; /* an error is asked for and the methods are approximations:
                                          the same scene by those that are not; else NULL */
     float glow;  /* the largest radiance that shows without a light: background and emission */
-    int tile;    /* fixed edge in pixels, or 0: follows the time a tile takes */
+    int tile;    /* fixed edge in pixels, or 0: follows the time a tile takes, */
+    int edge;    /* and is this at present, 0 before the first */
+    double piece; /* seconds that what is submitted at once is to take; 0: as long as suits one who
+                     waits for the whole picture */
 };
 
 /* Which traversal a device gets, BVH_LANE, BVH_PACKET or RAY_QUERY; TURNER_DEVICE says what is
@@ -109,6 +112,12 @@ void turner_renderer_destroy(struct turner_renderer *renderer);
  * TURNER_USAGE when one does not fit. Those that are const stay as they were compiled in. */
 enum turner_result turner_renderer_set_params(struct turner_renderer *renderer,
                                               const struct turner_scene *scene);
+
+/* Looks at the same scene in another way: with another camera, size, number of samples, aa_threshold
+ * or error, and a depth that is no larger and a cutoff that may be any. Adaptive samples need a
+ * renderer that was created for them. Builds and compiles nothing. */
+enum turner_result turner_renderer_look(struct turner_renderer *renderer,
+                                        const struct turner_scene *scene);
 
 /* Runs the kernel of render.comp on no pixel: a driver that compiles at the first dispatch does so
  * then. */

@@ -1,0 +1,230 @@
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/scene_options.h"
+
+#ifdef TURNER_VIEW
+
+#include <cjson/cJSON.h>
+
+#include "image/atomic.h"
+#include "image/image.h"
+#include "render/renderer.h"
+#include "view/view.h"
+
+static void print_help(void)
+{
+    puts("Usage: turner view SCENE [OPTION]…\n\n"
+         "Shows SCENE in a window. While the camera moves, resolution and depth give way as far as 30\n"
+         "pictures a second need it; at rest the picture gets better until it is the one that turner\n"
+         "render writes with the same settings. Then nothing is done until something changes.\n\n"
+         "  left drag               orbit around what is looked at\n"
+         "  middle or Shift+left    pan\n"
+         "  right drag              look around; with W A S D Q E held: fly\n"
+         "  wheel                   nearer, farther\n"
+         "  arrows, Page up, down   fly; Shift faster, Ctrl slower\n"
+         "  Home or 0               back to the scene's camera\n"
+         "  S                       save the picture, once it is finished\n"
+         "  Tab or P                panel\n"
+         "  F1                      all keys\n"
+         "  Esc or Q                quit\n\n"
+         "  -o, --output FILE      what S saves: .exr .png …; default is the scene's name with .png,\n"
+         "                         here; a number is added where there is such a file\n"
+         "      --size WxH         of the window, and the picture in it\n"
+         "      --depth N, --cutoff X, --spp N, --error E, --shading KIND, --shadows KIND,\n"
+         "      --exposure STOPS, --transfer CURVE   as for turner render\n"
+         "  -m, --method NAME=VALUE  a way to compute; turner params lists them (may be repeated)\n"
+         "  -d, --device D         index or part of the name (turner devices)\n"
+         "      --traversal KIND   auto | bvh | bvh_lane | bvh_packet | ray_query\n"
+         "      --shader-dir DIR   take shaders from here first (may be repeated)\n"
+         "      --spin SECONDS     the camera goes around by itself, once in so long\n"
+         "      --seconds S        close after so long\n"
+         "      --stats FILE       time to the first picture, pictures a second while moving and what\n"
+         "                         was given up for them, as JSON (- for stdout)\n"
+         "  -q, --quiet            no warnings, no word on how to get help\n"
+         "  -h, --help             this text\n\n"
+         "Example: turner view scenes/whitted1980.json --size 1280x720");
+}
+
+struct arguments {
+    const char *scene, *output, *stats;
+    double spin, seconds, start;
+    bool quiet;
+    struct turner_scene_options options;
+};
+
+enum { SPIN = TURNER_OPTION_OWN, SECONDS, STATS };
+
+static const struct option long_options[] = {
+    {"output", required_argument, NULL, 'o'},
+    {"method", required_argument, NULL, 'm'},
+    {"size", required_argument, NULL, TURNER_OPTION_SIZE},
+    {"depth", required_argument, NULL, TURNER_OPTION_DEPTH},
+    {"cutoff", required_argument, NULL, TURNER_OPTION_CUTOFF},
+    {"spp", required_argument, NULL, TURNER_OPTION_SPP},
+    {"error", required_argument, NULL, TURNER_OPTION_ERROR},
+    {"shading", required_argument, NULL, TURNER_OPTION_SHADING},
+    {"shadows", required_argument, NULL, TURNER_OPTION_SHADOWS},
+    {"exposure", required_argument, NULL, TURNER_OPTION_EXPOSURE},
+    {"transfer", required_argument, NULL, TURNER_OPTION_TRANSFER},
+    {"spd-rays", no_argument, NULL, TURNER_OPTION_SPD_RAYS},
+    {"spd-grid", no_argument, NULL, TURNER_OPTION_SPD_GRID},
+    {"device", required_argument, NULL, 'd'},
+    {"traversal", required_argument, NULL, TURNER_OPTION_TRAVERSAL},
+    {"shader-dir", required_argument, NULL, TURNER_OPTION_SHADER_DIR},
+    {"spin", required_argument, NULL, SPIN},
+    {"seconds", required_argument, NULL, SECONDS},
+    {"stats", required_argument, NULL, STATS},
+    {"quiet", no_argument, NULL, 'q'},
+    {"help", no_argument, NULL, 'h'},
+    {0}};
+
+static enum turner_result take(struct arguments *a, int option, char **argv)
+{
+    switch (option) {
+    case 'o': a->output = optarg; return TURNER_OK;
+    case 'q': a->quiet = true; return TURNER_OK;
+    case SPIN: return turner_option_real(&a->spin, "--spin", optarg, 0.1, 1e6);
+    case SECONDS: return turner_option_real(&a->seconds, "--seconds", optarg, 0.1, 1e6);
+    case STATS: a->stats = optarg; return TURNER_OK;
+    }
+    return turner_scene_option_take(&a->options, option, argv);
+}
+
+static enum turner_result write_picture(const char *path, const struct turner_scene *scene,
+                                        const struct turner_image *image,
+                                        const struct turner_statistics *statistics)
+{
+    return turner_picture_write(path, scene, image, statistics, NULL);
+}
+
+static int by_size(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+static char *report_json(struct turner_view_report *report)
+{
+    cJSON *object = cJSON_CreateObject();
+    int size[2] = {report->width, report->height};
+    cJSON_AddStringToObject(object, "device", report->device);
+    cJSON_AddStringToObject(object, "traversal", report->traversal);
+    cJSON_AddStringToObject(object, "presented_by", report->presenting);
+    cJSON_AddItemToObject(object, "size", cJSON_CreateIntArray(size, 2));
+    cJSON *seconds = cJSON_AddObjectToObject(object, "seconds");
+    cJSON_AddNumberToObject(seconds, "first_picture", report->first_picture);
+    cJSON_AddNumberToObject(seconds, "full_picture", report->full_picture);
+    cJSON_AddNumberToObject(object, "frames", report->frames);
+    if (report->moved) {
+        size_t count = report->moved;
+        qsort(report->intervals, count, sizeof *report->intervals, by_size);
+        cJSON *moving = cJSON_AddObjectToObject(object, "moving");
+        cJSON_AddNumberToObject(moving, "frames", report->moved);
+        cJSON_AddNumberToObject(moving, "per_second", report->moved / report->moved_seconds);
+        cJSON_AddNumberToObject(moving, "median", report->intervals[count / 2]);
+        cJSON_AddNumberToObject(moving, "slowest_twentieth", report->intervals[count * 19 / 20]);
+        cJSON_AddNumberToObject(moving, "scale", report->scale);
+        cJSON_AddNumberToObject(moving, "depth", report->depth);
+    }
+    char *text = cJSON_Print(object);
+    cJSON_Delete(object);
+    return text;
+}
+
+static enum turner_result write_report(const char *path, struct turner_view_report *report)
+{
+    char *text = report_json(report);
+    enum turner_result result = TURNER_OK;
+    if (strcmp(path, "-") == 0)
+        puts(text);
+    else
+        result = turner_atomic_write(path, text, strlen(text));
+    free(text);
+    return result;
+}
+
+/* The scene's name with another ending, in the folder turner runs in. */
+static void default_output(char output[256], const char *scene)
+{
+    const char *slash = strrchr(scene, '/'), *name = slash ? slash + 1 : scene;
+    const char *dot = strrchr(name, '.');
+    int stem = (int)(dot && dot > name ? dot - name : (long)strlen(name));
+    snprintf(output, 256, "%.*s.png", stem < 200 ? stem : 200, name);
+}
+
+static enum turner_result load_and_view(struct arguments *a)
+{
+    struct turner_scene *scene;
+    struct turner_opening opening;
+    struct turner_view_report report = {0};
+    char output[256];
+    default_output(output, a->scene);
+    turner_signals_block();
+    turner_opening_start(&opening, a->options.render.device);
+    enum turner_result result;
+    TURNER_TRY_DONE(turner_scene_load(&scene, a->scene));
+    result = turner_scene_options_apply(&a->options, scene);
+    struct turner_view_options options = {
+        .scene = scene,
+        .path = a->scene,
+        .opening = &opening,
+        .render = a->options.render,
+        .write = write_picture,
+        .output = a->output ? a->output : output,
+        .start = a->start,
+        .quiet = a->quiet,
+        .spin = a->spin,
+        .seconds = a->seconds,
+    };
+    if (result == TURNER_OK)
+        result = turner_view(&options, &report);
+    turner_scene_destroy(scene);
+    if (a->stats && (result == TURNER_OK || result == TURNER_INTERRUPTED)) {
+        enum turner_result written = write_report(a->stats, &report);
+        result = written == TURNER_OK ? result : written;
+    }
+done:
+    free(report.intervals);
+    turner_opening_destroy(&opening);
+    return result;
+}
+
+enum turner_result turner_cmd_view(int argc, char **argv)
+{
+    struct arguments a = {.options = TURNER_SCENE_OPTIONS, .start = turner_seconds()};
+    opterr = 0;
+    for (int option; (option = getopt_long(argc, argv, "o:d:m:qh", long_options, NULL)) != -1;) {
+        if (option == 'h') {
+            print_help();
+            return TURNER_OK;
+        }
+        TURNER_TRY(take(&a, option, argv));
+    }
+    if (optind + 1 != argc)
+        return turner_fail(TURNER_USAGE, "view takes one scene; see turner view --help");
+    a.scene = argv[optind];
+    turner_set_quiet(a.quiet);
+    if (a.options.render.device && strcmp(a.options.render.device, "reference") == 0)
+        return turner_fail(TURNER_USAGE, "the reference is too slow for a window; turner render "
+                                         "--device reference draws with it");
+    if (a.output)
+        TURNER_TRY(turner_image_check_writable(a.output));
+    if (a.stats && strcmp(a.stats, "-") != 0)
+        TURNER_TRY(turner_atomic_check(a.stats));
+    return load_and_view(&a);
+}
+
+#else
+
+enum turner_result turner_cmd_view(int argc, char **argv)
+{
+    (void)argc, (void)argv;
+    return turner_fail(TURNER_DEVICE, "this turner was built without a window: that takes GLFW "
+                                      "(libglfw3-dev) and Dear ImGui (libimgui-dev); turner render "
+                                      "draws without one");
+}
+
+#endif

@@ -1,0 +1,44 @@
+/* What lies over the picture: the list of keys, the panel, what just happened. */
+#include <stdio.h>
+
+#include "view/session.h"
+
+static const char *const keys[][2] = {
+    {"left drag", "orbit around what is looked at"},
+    {"middle or Shift+left drag", "pan"},
+    {"right drag", "look around; with W A S D Q E: fly"},
+    {"wheel", "nearer, farther"},
+    {"arrows, Page up, Page down", "fly (Shift faster, Ctrl slower)"},
+    {"Home, 0", "the scene's camera"},
+    {"S", "save the picture, once it is finished"},
+    {"Tab, P", "panel"},
+    {"F1", "these keys"},
+    {"Esc, Q", "quit"},
+};
+
+static void show_keys(const struct turner_ui *ui)
+{
+    if (ui->open("Keys", 3, 34, false)) {
+        for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+            ui->row(keys[i][0], keys[i][1]);
+    }
+    ui->close();
+}
+
+static void show_toast(const struct turner_session *session, const struct turner_ui *ui)
+{
+    if (turner_seconds() >= session->toast_end)
+        return;
+    ui->open("##toast", 2, 0, true);
+    ui->text(session->toast);
+    ui->close();
+}
+
+void turner_session_boxes(struct turner_session *session)
+{
+    const struct turner_ui *ui = &session->functions->ui;
+    ui->begin(session->window);
+    if (session->keys)
+        show_keys(ui);
+    show_toast(session, ui);
+}

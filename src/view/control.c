@@ -1,0 +1,187 @@
+/* Mouse and keys. docs/view.md and the help of F1 (boxes.c) list them, too. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "view/camera.h"
+#include "view/session.h"
+
+#define PI 3.14159265358979323846
+#define NOTCH 0.9       /* of the distance, that a notch of the wheel leaves */
+#define FLIGHT 0.5      /* of the distance, in a second */
+#define FASTER 4.0
+#define MOST_STEP 0.1   /* seconds: after a pause the camera does not jump */
+
+static void touched(struct turner_session *session)
+{
+    turner_camera_round(&session->wish.camera);
+    session->changed = session->moving = true;
+}
+
+/* ---- mouse ---- */
+
+static void press(struct turner_session *session, const struct turner_window_event *event)
+{
+    session->x = event->x;
+    session->y = event->y;
+    if (event->button == GLFW_MOUSE_BUTTON_LEFT)
+        session->drag = event->mods & GLFW_MOD_SHIFT ? TURNER_DRAG_PAN : TURNER_DRAG_ORBIT;
+    else if (event->button == GLFW_MOUSE_BUTTON_MIDDLE)
+        session->drag = TURNER_DRAG_PAN;
+    else if (event->button == GLFW_MOUSE_BUTTON_RIGHT)
+        session->drag = TURNER_DRAG_TURN;
+}
+
+static void move(struct turner_session *session, const struct turner_window_event *event)
+{
+    struct turner_camera *camera = &session->wish.camera;
+    double dx = event->x - session->x, dy = event->y - session->y;
+    double width = session->wish.settings.width, height = session->wish.settings.height;
+    session->x = event->x;
+    session->y = event->y;
+    session->dirty = session->dirty || session->panel;
+    if (session->drag == TURNER_DRAG_NONE || (dx == 0 && dy == 0))
+        return;
+    if (session->drag == TURNER_DRAG_ORBIT) /* across the window is half around */
+        turner_camera_orbit(camera, -dx / width * PI, dy / height * PI);
+    else if (session->drag == TURNER_DRAG_TURN) /* what was under the pointer stays there */
+        turner_camera_turn(camera, -dx / height * camera->vfov, dy / height * camera->vfov);
+    else
+        turner_camera_pan(camera, dx, dy, (int)height);
+    touched(session);
+}
+
+static void lift(struct turner_session *session, const struct turner_window_event *event)
+{
+    bool turn = session->drag == TURNER_DRAG_TURN;
+    if ((event->button == GLFW_MOUSE_BUTTON_RIGHT) == turn) {
+        session->drag = TURNER_DRAG_NONE;
+        if (turn)
+            memset(session->flying, 0, sizeof session->flying);
+    }
+}
+
+/* ---- keys ---- */
+
+/* Which way a key flies, or −1: arrows always, letters while the right button is down. */
+static int flight_of(const struct turner_session *session, int key)
+{
+    static const struct {
+        int arrow, letter;
+    } keys[6] = {{GLFW_KEY_RIGHT, GLFW_KEY_D},   {GLFW_KEY_LEFT, GLFW_KEY_A},
+                 {GLFW_KEY_PAGE_UP, GLFW_KEY_E}, {GLFW_KEY_PAGE_DOWN, GLFW_KEY_Q},
+                 {GLFW_KEY_UP, GLFW_KEY_W},      {GLFW_KEY_DOWN, GLFW_KEY_S}};
+    for (int i = 0; i < 6; i++) {
+        if (key == keys[i].arrow || (session->drag == TURNER_DRAG_TURN && key == keys[i].letter))
+            return i;
+    }
+    return -1;
+}
+
+static bool is_flying(const struct turner_session *session)
+{
+    for (int i = 0; i < 6; i++) {
+        if (session->flying[i])
+            return true;
+    }
+    return false;
+}
+
+static void hold(struct turner_session *session, int key, int mods, bool down)
+{
+    int flight = flight_of(session, key);
+    bool before = is_flying(session);
+    session->fast = mods & GLFW_MOD_SHIFT;
+    session->slow = mods & GLFW_MOD_CONTROL;
+    if (flight < 0)
+        return;
+    session->flying[flight] = down;
+    if (!before)
+        session->clock = turner_seconds();
+}
+
+/* The name for what S saves: that of the options, or the first like it that is free. */
+static void name_shot(const struct turner_session *session, char name[1024])
+{
+    const char *output = session->options->output, *dot = strrchr(output, '.');
+    if (dot && dot - output > 3 && strncmp(dot - 3, ".16", 3) == 0)
+        dot -= 3;
+    int stem = (int)(dot ? dot - output : (long)strlen(output));
+    snprintf(name, 1024, "%s", output);
+    for (int i = 2; access(name, F_OK) == 0 && i < 10000; i++)
+        snprintf(name, 1024, "%.*s-%d%s", stem, output, i, dot ? dot : "");
+}
+
+static void key(struct turner_session *session, const struct turner_window_event *event)
+{
+    char name[1024];
+    hold(session, event->key, event->mods, true);
+    if (flight_of(session, event->key) >= 0 || event->again)
+        return;
+    switch (event->key) {
+    case GLFW_KEY_ESCAPE:
+    case GLFW_KEY_Q: session->quit = true; break;
+    case GLFW_KEY_F1: session->keys = !session->keys; break;
+    case GLFW_KEY_TAB:
+    case GLFW_KEY_P: session->panel = !session->panel; break;
+    case GLFW_KEY_HOME:
+    case GLFW_KEY_0:
+        session->wish.camera = session->home;
+        session->changed = true;
+        break;
+    case GLFW_KEY_S:
+        name_shot(session, name);
+        turner_painter_shoot(&session->painter, name);
+        turner_session_say(session, "%s as soon as the picture is finished", name);
+        break;
+    }
+    session->dirty = true;
+}
+
+void turner_session_event(struct turner_session *session, const struct turner_window_event *event)
+{
+    session->dirty = session->dirty || ((session->panel || session->keys) &&
+                                        event->kind != TURNER_WINDOW_RELEASE);
+    switch (event->kind) {
+    case TURNER_WINDOW_CLOSE: session->quit = true; break;
+    case TURNER_WINDOW_UNCOVER: session->dirty = true; break;
+    case TURNER_WINDOW_PRESS: press(session, event); break;
+    case TURNER_WINDOW_LIFT: lift(session, event); break;
+    case TURNER_WINDOW_MOVE: move(session, event); break;
+    case TURNER_WINDOW_WHEEL:
+        turner_camera_dolly(&session->wish.camera, pow(NOTCH, event->y));
+        touched(session);
+        break;
+    case TURNER_WINDOW_KEY: key(session, event); break;
+    case TURNER_WINDOW_RELEASE: hold(session, event->key, event->mods, false); break;
+    }
+}
+
+/* ---- by itself ---- */
+
+static void fly(struct turner_session *session, double seconds)
+{
+    const bool *f = session->flying;
+    double step = seconds * FLIGHT * turner_camera_distance(&session->wish.camera);
+    step *= session->fast ? FASTER : session->slow ? 1 / FASTER : 1;
+    turner_camera_fly(&session->wish.camera, (f[0] - f[1]) * step, (f[2] - f[3]) * step,
+                      (f[4] - f[5]) * step);
+}
+
+bool turner_session_animate(struct turner_session *session)
+{
+    double now = turner_seconds(), seconds = fmin(now - session->clock, MOST_STEP);
+    bool flies = is_flying(session), spins = session->options->spin > 0;
+    session->clock = now;
+    if (flies)
+        fly(session, seconds);
+    if (spins)
+        turner_camera_orbit(&session->wish.camera, 2 * PI * seconds / session->options->spin, 0);
+    if (flies || spins)
+        touched(session);
+    return flies || spins;
+}

@@ -1,0 +1,216 @@
+/* The painter's thread: waits for wishes, goes from stage to stage, hands pictures over. */
+#include "view/painter.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/memory.h"
+
+#define REST_SECONDS 0.15 /* without another wish until a moving picture is taken to be at rest */
+
+/* ---- from the window's thread ---- */
+
+void turner_painter_wish(struct turner_painter *painter, const struct turner_wish *wish)
+{
+    pthread_mutex_lock(&painter->mutex);
+    painter->wish = *wish;
+    painter->fresh_wish = true;
+    pthread_cond_signal(&painter->changed);
+    pthread_mutex_unlock(&painter->mutex);
+}
+
+static void swap(struct turner_sight *a, struct turner_sight *b)
+{
+    struct turner_sight c = *a;
+    *a = *b;
+    *b = c;
+}
+
+bool turner_painter_take(struct turner_painter *painter, struct turner_sight *sight)
+{
+    pthread_mutex_lock(&painter->mutex);
+    bool fresh = painter->fresh_sight;
+    painter->fresh_sight = false;
+    if (fresh)
+        swap(sight, &painter->sight);
+    pthread_mutex_unlock(&painter->mutex);
+    return fresh;
+}
+
+void turner_sight_destroy(struct turner_sight *sight)
+{
+    free(sight->rgba);
+    *sight = (struct turner_sight){0};
+}
+
+void turner_painter_shoot(struct turner_painter *painter, const char *path)
+{
+    pthread_mutex_lock(&painter->mutex);
+    free(painter->shot);
+    painter->shot = turner_strdup(path);
+    pthread_cond_signal(&painter->changed);
+    pthread_mutex_unlock(&painter->mutex);
+}
+
+bool turner_painter_reply(struct turner_painter *painter, char reply[1024])
+{
+    pthread_mutex_lock(&painter->mutex);
+    bool fresh = painter->fresh_reply;
+    painter->fresh_reply = false;
+    if (fresh)
+        memcpy(reply, painter->reply, sizeof painter->reply);
+    pthread_mutex_unlock(&painter->mutex);
+    return fresh;
+}
+
+enum turner_result turner_painter_result(struct turner_painter *painter)
+{
+    pthread_mutex_lock(&painter->mutex);
+    enum turner_result result = painter->result;
+    if (result != TURNER_OK)
+        turner_fail(result, "%s", painter->failure);
+    pthread_mutex_unlock(&painter->mutex);
+    return result;
+}
+
+/* ---- in the thread ---- */
+
+static void say(struct turner_painter *painter, const char *text)
+{
+    pthread_mutex_lock(&painter->mutex);
+    snprintf(painter->reply, sizeof painter->reply, "%s", text);
+    painter->fresh_reply = true;
+    pthread_mutex_unlock(&painter->mutex);
+    painter->options.wake(painter->options.user);
+}
+
+static void write_shot(struct turner_painter *painter)
+{
+    pthread_mutex_lock(&painter->mutex);
+    char *path = painter->shot;
+    painter->shot = NULL;
+    pthread_mutex_unlock(&painter->mutex);
+    if (!path)
+        return;
+    char text[1024];
+    struct turner_statistics statistics = painter->own.statistics;
+    if (painter->options.write(path, &painter->scene, &painter->full, &statistics) == TURNER_OK)
+        snprintf(text, sizeof text, "saved %s", path);
+    else
+        snprintf(text, sizeof text, "%s", turner_message());
+    free(path);
+    say(painter, text);
+}
+
+/* Until there is a wish, a picture to write when `done`, or `seconds` have gone by (< 0: for ever).
+ * Takes the wish. False: the end. */
+static bool wait_for(struct turner_painter *painter, struct turner_wish *wish, bool *fresh,
+                     bool done, double seconds)
+{
+    struct timespec until;
+    clock_gettime(CLOCK_MONOTONIC, &until);
+    long nanoseconds = until.tv_nsec + (long)(seconds * 1e9);
+    until.tv_sec += nanoseconds / 1000000000;
+    until.tv_nsec = nanoseconds % 1000000000;
+    pthread_mutex_lock(&painter->mutex);
+    int over = 0;
+    while (!painter->quit && !painter->fresh_wish && !(done && painter->shot) && over == 0) {
+        if (seconds < 0)
+            pthread_cond_wait(&painter->changed, &painter->mutex);
+        else
+            over = pthread_cond_timedwait(&painter->changed, &painter->mutex, &until);
+    }
+    *fresh = painter->fresh_wish;
+    if (*fresh)
+        *wish = painter->wish;
+    painter->fresh_wish = false;
+    bool quit = painter->quit;
+    pthread_mutex_unlock(&painter->mutex);
+    return !quit;
+}
+
+static void fail(struct turner_painter *painter, enum turner_result result)
+{
+    pthread_mutex_lock(&painter->mutex);
+    painter->result = result;
+    snprintf(painter->failure, sizeof painter->failure, "%s", turner_message());
+    pthread_mutex_unlock(&painter->mutex);
+    painter->options.wake(painter->options.user);
+}
+
+static enum turner_result work(struct turner_painter *painter)
+{
+    struct turner_wish wish;
+    bool fresh, waited = false;
+    enum turner_stage stage = TURNER_STAGE_DONE;
+    for (;;) {
+        double seconds = stage == TURNER_STAGE_DONE ? -1
+                         : stage == TURNER_STAGE_SINGLE && wish.moving && !waited ? REST_SECONDS
+                                                                                  : 0;
+        waited = true;
+        if (!wait_for(painter, &wish, &fresh, stage == TURNER_STAGE_DONE, seconds))
+            return TURNER_OK;
+        if (fresh) {
+            TURNER_TRY(turner_painter_prepare(painter, &wish));
+            stage = turner_painter_first(painter, &wish);
+            waited = false;
+        }
+        if (stage == TURNER_STAGE_DONE) {
+            write_shot(painter);
+            continue;
+        }
+        enum turner_result result = turner_painter_draw(painter, &wish, stage);
+        if (result == TURNER_INTERRUPTED)
+            continue; /* a wish is there, or it is the end */
+        TURNER_TRY(result);
+        stage = painter->own.stage == TURNER_STAGE_DONE ? TURNER_STAGE_DONE
+                                                        : turner_painter_next(&wish, stage);
+    }
+}
+
+static void *run(void *user)
+{
+    struct turner_painter *painter = user;
+    enum turner_result result = work(painter);
+    turner_painter_clear(painter);
+    if (result != TURNER_OK)
+        fail(painter, result);
+    return NULL;
+}
+
+enum turner_result turner_painter_start(struct turner_painter *painter,
+                                        const struct turner_scene *scene,
+                                        const struct turner_wish *first,
+                                        struct turner_opening *opening,
+                                        const struct turner_painter_options *options)
+{
+    *painter = (struct turner_painter){
+        .options = *options, .opening = opening, .scene = *scene, .wish = *first,
+        .fresh_wish = true};
+    pthread_condattr_t attributes;
+    pthread_condattr_init(&attributes);
+    pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
+    pthread_mutex_init(&painter->mutex, NULL);
+    pthread_cond_init(&painter->changed, &attributes);
+    pthread_condattr_destroy(&attributes);
+    if (pthread_create(&painter->thread, NULL, run, painter) != 0)
+        return turner_fail(TURNER_DEVICE, "no thread could be started: %s", strerror(errno));
+    return TURNER_OK;
+}
+
+void turner_painter_stop(struct turner_painter *painter)
+{
+    pthread_mutex_lock(&painter->mutex);
+    painter->quit = true;
+    pthread_cond_signal(&painter->changed);
+    pthread_mutex_unlock(&painter->mutex);
+    pthread_join(painter->thread, NULL);
+    pthread_cond_destroy(&painter->changed);
+    pthread_mutex_destroy(&painter->mutex);
+    turner_sight_destroy(&painter->sight);
+    free(painter->shot);
+    painter->shot = NULL;
+}

@@ -1,0 +1,122 @@
+/* Draws what is wished to be seen, in a thread of its own that owns the device: at first roughly and
+ * soon, then, when no other wish comes, as the settings say. */
+#ifndef TURNER_VIEW_PAINTER_H
+#define TURNER_VIEW_PAINTER_H
+
+#include <pthread.h>
+
+#include "image/codec.h"
+#include "render/opening.h"
+#include "scene/scene.h"
+#include "view/pace.h"
+
+/* What is to be seen. The size is that of the settings. */
+struct turner_wish {
+    struct turner_camera camera;
+    struct turner_settings settings;
+    bool moving; /* there is more to come: wait a little before going on to better pictures */
+};
+
+enum turner_stage {
+    TURNER_STAGE_QUICK,  /* as good as the time of a frame allows */
+    TURNER_STAGE_SINGLE, /* one sample for every pixel */
+    TURNER_STAGE_FULL,   /* what turner render draws with these settings */
+    TURNER_STAGE_DONE,   /* that is finished */
+};
+
+/* What can be seen. */
+struct turner_sight {
+    uint8_t *rgba; /* width × height × 4: RGB and one unused */
+    int width, height;
+    size_t room; /* pixels `rgba` holds */
+    struct turner_settings settings; /* it is drawn with, or is being drawn with */
+    enum turner_stage stage;         /* DONE: this is the last for this wish */
+    bool quick;                      /* drawn in the time of a frame */
+    double share;                    /* of the stage that is under way */
+    double seconds; /* it took, or so far */
+    struct turner_statistics statistics;
+    unsigned count; /* of pictures before it that were not parts of one */
+};
+
+/* A picture that turner render would write. */
+typedef enum turner_result (*turner_picture_writer)(const char *path,
+                                                    const struct turner_scene *scene,
+                                                    const struct turner_image *image,
+                                                    const struct turner_statistics *statistics);
+
+struct turner_painter_options {
+    struct turner_render_options render;
+    turner_picture_writer write;
+    void (*wake)(void *user); /* there is something new; called in the painter's thread */
+    void *user;
+};
+
+struct turner_painter {
+    struct turner_painter_options options;
+    struct turner_opening *opening; /* not owned */
+    pthread_t thread;
+    pthread_mutex_t mutex; /* of what stands here down to `reply` */
+    pthread_cond_t changed;
+    bool quit, fresh_wish, fresh_sight;
+    struct turner_wish wish;
+    struct turner_sight sight;      /* the newest, to be taken */
+    char *shot;                     /* NULL, or where the full picture is to be written */
+    char reply[1024], failure[2048]; /* for people: what became of it; why nothing can be drawn */
+    bool fresh_reply;
+    enum turner_result result;
+
+    /* The thread's own. */
+    struct turner_scene scene; /* shares all but camera and settings with that of the caller */
+    struct turner_kernel kernel;
+    struct turner_renderer renderer;
+    struct turner_statistics made; /* what making the renderer took */
+    struct turner_settings built;  /* the settings it was made with */
+    bool ready;
+    struct turner_pace pace;
+    struct turner_image quick, full;
+    struct turner_sight own; /* being filled */
+    struct turner_packer packer;
+    double exposure;
+    bool linear;
+    double started, shown; /* the drawing under way, and when a part of it was last seen */
+    unsigned count;
+};
+
+/* Starts the thread. `scene` and `opening` live until turner_painter_stop. */
+enum turner_result turner_painter_start(struct turner_painter *painter,
+                                        const struct turner_scene *scene,
+                                        const struct turner_wish *first,
+                                        struct turner_opening *opening,
+                                        const struct turner_painter_options *options);
+/* Ends what it draws and the thread. */
+void turner_painter_stop(struct turner_painter *painter);
+
+void turner_painter_wish(struct turner_painter *painter, const struct turner_wish *wish);
+
+/* Exchanges *sight for the newest, if there is one that was not taken. */
+bool turner_painter_take(struct turner_painter *painter, struct turner_sight *sight);
+void turner_sight_destroy(struct turner_sight *sight);
+
+/* Has the picture of the wish written as soon as it is full. */
+void turner_painter_shoot(struct turner_painter *painter, const char *path);
+
+/* What the painter has to say, once: what became of a picture that was to be written. */
+bool turner_painter_reply(struct turner_painter *painter, char reply[1024]);
+
+/* TURNER_OK, or why nothing more can be drawn, with turner_message. */
+enum turner_result turner_painter_result(struct turner_painter *painter);
+
+/* stages.c, in the thread: draws `stage` of painter->wish, which the thread has a copy of.
+ * TURNER_INTERRUPTED when another wish came. */
+enum turner_result turner_painter_draw(struct turner_painter *painter,
+                                       const struct turner_wish *wish, enum turner_stage stage);
+/* What the picture of the wish begins with and, after `stage`, goes on with. */
+enum turner_stage turner_painter_first(const struct turner_painter *painter,
+                                       const struct turner_wish *wish);
+enum turner_stage turner_painter_next(const struct turner_wish *wish, enum turner_stage stage);
+/* Makes the renderer fit the settings of the wish. */
+enum turner_result turner_painter_prepare(struct turner_painter *painter,
+                                          const struct turner_wish *wish);
+void turner_painter_clear(struct turner_painter *painter);
+
+#endif

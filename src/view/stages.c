@@ -1,0 +1,312 @@
+/* What the painter draws at each stage. */
+#include <assert.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "render/adaptive.h"
+#include "view/painter.h"
+
+#define PIECE_SECONDS 0.012 /* what is submitted at once: a new wish waits for its end */
+#define PART_SECONDS 0.15   /* parts of a picture are shown that often, */
+#define PART_FIRST 0.1      /* and not before */
+#define QUICK_DEPTH 8       /* where the depth is chosen by an error */
+
+/* ---- the renderer ---- */
+
+void turner_painter_clear(struct turner_painter *painter)
+{
+    turner_renderer_destroy(&painter->renderer);
+    turner_kernel_destroy(&painter->kernel);
+    turner_image_destroy(&painter->quick);
+    turner_image_destroy(&painter->full);
+    turner_sight_destroy(&painter->own);
+    painter->ready = false;
+}
+
+static bool same_methods(const struct turner_methods *a, const struct turner_methods *b)
+{
+    return a->sphere == b->sphere && a->triangle == b->triangle && a->offset == b->offset &&
+           a->tmin == b->tmin && a->fresnel_cosine == b->fresnel_cosine &&
+           a->fresnel == b->fresnel && a->schlick_side == b->schlick_side &&
+           a->precision == b->precision && a->traversal == b->traversal;
+}
+
+/* Whether what was made for the settings `built` can draw with `now`, too. */
+static bool fits(const struct turner_settings *built, const struct turner_settings *now)
+{
+    return same_methods(&built->methods, &now->methods) && built->shading == now->shading &&
+           built->shadows == now->shadows && built->spd_rays == now->spd_rays &&
+           built->depth >= now->depth && (built->error > 0) == (now->error > 0) &&
+           (turner_adaptive_wanted(built) || !turner_adaptive_wanted(now));
+}
+
+static enum turner_result create(struct turner_painter *painter)
+{
+    const struct turner_render_options *options = &painter->options.render;
+    struct turner_statistics *made = &painter->made;
+    struct turner_gpu *gpu = &painter->opening->gpu;
+    const struct turner_methods *methods = &painter->scene.settings.methods;
+    *made = (struct turner_statistics){0};
+    if (!painter->kernel.spirv.words) {
+        TURNER_TRY(turner_opening_compile(&painter->kernel, painter->opening, methods, options,
+                                          made));
+    } else {
+        unsigned kind;
+        TURNER_TRY(turner_choose_kernel(&kind, &gpu->info, methods, options->traversal));
+        if (kind != painter->kernel.kind) {
+            turner_kernel_destroy(&painter->kernel);
+            TURNER_TRY(turner_kernel_create(&painter->kernel, kind, options));
+        }
+    }
+    turner_renderer_destroy(&painter->renderer);
+    TURNER_TRY(turner_renderer_create(&painter->renderer, gpu, &painter->kernel, &painter->scene,
+                                      options, made));
+    TURNER_TRY(turner_renderer_warm(&painter->renderer));
+    painter->renderer.piece = PIECE_SECONDS;
+    snprintf(made->device, sizeof made->device, "%s", gpu->info.name);
+    snprintf(made->driver, sizeof made->driver, "%s", gpu->info.driver);
+    made->traversal = turner_traversal_name(painter->kernel.kind);
+    made->precision = methods->precision == TURNER_PRECISION_F64 ? "f64" : "f32";
+    return TURNER_OK;
+}
+
+enum turner_result turner_painter_prepare(struct turner_painter *painter,
+                                          const struct turner_wish *wish)
+{
+    bool ready = painter->ready && fits(&painter->built, &wish->settings);
+    painter->scene.camera = wish->camera;
+    painter->scene.settings = wish->settings;
+    if (!ready) {
+        painter->ready = false;
+        TURNER_TRY(create(painter));
+        painter->built = wish->settings;
+        painter->ready = true;
+    }
+    int depth = wish->settings.error > 0 ? QUICK_DEPTH : wish->settings.depth;
+    if (!ready || depth != painter->pace.depth[0])
+        turner_pace_start(&painter->pace, depth);
+    return TURNER_OK;
+}
+
+/* ---- for the eye ---- */
+
+struct rows {
+    const struct turner_packer *packer;
+    uint8_t *rgba;
+    int rows; /* a piece */
+};
+
+static void pack_rows(void *user, uint32_t piece)
+{
+    const struct rows *rows = user;
+    const struct turner_image *image = rows->packer->image;
+    int first = (int)piece * rows->rows, end = first + rows->rows;
+    uint8_t *line = turner_calloc((size_t)image->width * 3, 1);
+    for (int y = first; y < end && y < image->height; y++) {
+        uint8_t *to = rows->rgba + 4 * (size_t)y * (size_t)image->width;
+        turner_packer_rows(line, rows->packer, y, 1);
+        for (int x = 0; x < image->width; x++) {
+            memcpy(to + 4 * x, line + 3 * x, 3);
+            to[4 * x + 3] = 255;
+        }
+    }
+    free(line);
+}
+
+/* The same bytes as in a PNG file. */
+static void pack(struct turner_painter *painter, const struct turner_image *image)
+{
+    const struct turner_settings *settings = &painter->scene.settings;
+    bool linear = settings->transfer == TURNER_TRANSFER_LINEAR;
+    struct turner_sight *own = &painter->own;
+    if (!painter->packer.format || painter->exposure != settings->exposure ||
+        painter->linear != linear) {
+        struct turner_image_encoding encoding = {.exposure = settings->exposure, .linear = linear};
+        painter->exposure = settings->exposure;
+        painter->linear = linear;
+        turner_packer_create(&painter->packer, turner_format_find("a.png"), image, &encoding);
+    }
+    painter->packer.image = image;
+    own->width = image->width;
+    own->height = image->height;
+    size_t pixels = (size_t)image->width * (size_t)image->height;
+    if (own->room < pixels) {
+        own->rgba = turner_realloc(own->rgba, pixels, 4);
+        own->room = pixels;
+    }
+    struct rows rows = {&painter->packer, own->rgba, 32};
+    turner_parallel_for((uint32_t)((image->height + rows.rows - 1) / rows.rows), pack_rows, &rows);
+}
+
+static void publish(struct turner_painter *painter, const struct turner_image *image,
+                    const struct turner_settings *settings, enum turner_stage stage, double share)
+{
+    pack(painter, image);
+    struct turner_sight *own = &painter->own, old;
+    own->settings = *settings;
+    own->stage = stage;
+    own->share = share;
+    own->seconds = turner_seconds() - painter->started;
+    own->count = painter->count;
+    struct turner_sight said = *own;
+    pthread_mutex_lock(&painter->mutex);
+    old = painter->sight;
+    painter->sight = *own;
+    painter->fresh_sight = true;
+    pthread_mutex_unlock(&painter->mutex);
+    *own = said;
+    own->rgba = old.rgba;
+    own->room = old.room;
+    painter->shown = turner_seconds();
+    painter->options.wake(painter->options.user);
+}
+
+/* ---- drawing ---- */
+
+/* What stands between turner_renderer_draw and the world. */
+struct drawing {
+    struct turner_painter *painter;
+    const struct turner_settings *settings;
+    struct turner_image *image;
+    enum turner_stage stage;
+};
+
+static bool progress(double share, void *user)
+{
+    struct drawing *drawing = user;
+    struct turner_painter *painter = drawing->painter;
+    pthread_mutex_lock(&painter->mutex);
+    bool quit = painter->quit, go_on = !quit && !painter->fresh_wish;
+    pthread_mutex_unlock(&painter->mutex);
+    if (drawing->stage == TURNER_STAGE_QUICK)
+        return !quit; /* soon finished: a frame that is given up is one that is missed */
+    double now = turner_seconds();
+    if (go_on && share < 1 && now - painter->shown > PART_SECONDS &&
+        now - painter->started > PART_FIRST)
+        publish(painter, drawing->image, drawing->settings, drawing->stage, share);
+    return go_on;
+}
+
+static enum turner_result resize(struct turner_image *image, int width, int height)
+{
+    if (image->width == width && image->height == height)
+        return TURNER_OK;
+    turner_image_destroy(image);
+    return turner_image_create(image, width, height);
+}
+
+static float mix(const float *a, const float *b, float t)
+{
+    return *a + t * (*b - *a);
+}
+
+/* `from` magnified, for the eye until something better is there. */
+static void enlarge(struct turner_image *to, const struct turner_image *from)
+{
+    for (int y = 0; y < to->height; y++) {
+        float v = ((float)y + 0.5f) * (float)from->height / (float)to->height - 0.5f;
+        v = fminf(fmaxf(v, 0), (float)(from->height - 1));
+        int row = (int)v, below = row + 1 < from->height ? row + 1 : row;
+        for (int x = 0; x < to->width; x++) {
+            float u = ((float)x + 0.5f) * (float)from->width / (float)to->width - 0.5f;
+            u = fminf(fmaxf(u, 0), (float)(from->width - 1));
+            int column = (int)u, right = column + 1 < from->width ? column + 1 : column;
+            const float *a = from->rgba + 4 * ((size_t)row * (size_t)from->width);
+            const float *b = from->rgba + 4 * ((size_t)below * (size_t)from->width);
+            float *out = to->rgba + 4 * ((size_t)y * (size_t)to->width + (size_t)x);
+            for (int i = 0; i < 4; i++) {
+                float above = mix(a + 4 * column + i, a + 4 * right + i, u - (float)column);
+                float under = mix(b + 4 * column + i, b + 4 * right + i, u - (float)column);
+                out[i] = mix(&above, &under, v - (float)row);
+            }
+        }
+    }
+}
+
+static struct turner_settings single(const struct turner_settings *full)
+{
+    struct turner_settings settings = *full;
+    settings.spp = 1;
+    settings.aa_threshold = 0;
+    if (settings.error > 0 && settings.depth > QUICK_DEPTH)
+        settings.depth = QUICK_DEPTH;
+    settings.error = 0;
+    return settings;
+}
+
+static bool is_single(const struct turner_settings *settings)
+{
+    return settings->spp == 1 && settings->aa_threshold == 0 && settings->error == 0;
+}
+
+static struct turner_settings quick(struct turner_painter *painter,
+                                    const struct turner_settings *full)
+{
+    struct turner_settings settings = single(full);
+    turner_pace_choose(&painter->pace, full->width, full->height, &settings.width,
+                       &settings.height, &settings.depth);
+    if (settings.spd_grid && settings.height < 3) /* that has no picture of fewer rows */
+        settings.height = full->height < 3 ? full->height : 3;
+    return settings;
+}
+
+enum turner_stage turner_painter_first(const struct turner_painter *painter,
+                                       const struct turner_wish *wish)
+{
+    (void)painter;
+    (void)wish;
+    return TURNER_STAGE_QUICK;
+}
+
+enum turner_stage turner_painter_next(const struct turner_wish *wish, enum turner_stage stage)
+{
+    if (stage == TURNER_STAGE_QUICK)
+        return TURNER_STAGE_SINGLE;
+    return stage == TURNER_STAGE_SINGLE && !is_single(&wish->settings) ? TURNER_STAGE_FULL
+                                                                       : TURNER_STAGE_DONE;
+}
+
+static bool same_picture(const struct turner_settings *a, const struct turner_settings *full)
+{
+    return is_single(full) && a->width == full->width && a->height == full->height &&
+           a->depth == full->depth;
+}
+
+enum turner_result turner_painter_draw(struct turner_painter *painter,
+                                       const struct turner_wish *wish, enum turner_stage stage)
+{
+    const struct turner_settings *full = &wish->settings;
+    struct turner_settings settings = stage == TURNER_STAGE_QUICK    ? quick(painter, full)
+                                      : stage == TURNER_STAGE_SINGLE ? single(full)
+                                                                     : *full;
+    bool whole = stage == TURNER_STAGE_QUICK && same_picture(&settings, full);
+    struct turner_image *image =
+        stage == TURNER_STAGE_QUICK && !whole ? &painter->quick : &painter->full;
+    TURNER_TRY(resize(image, settings.width, settings.height));
+    if (stage == TURNER_STAGE_SINGLE && painter->quick.width)
+        enlarge(image, &painter->quick);
+
+    struct turner_scene scene = painter->scene;
+    scene.settings = settings;
+    struct drawing drawing = {painter, &settings, image, stage};
+    struct turner_render_options options = painter->options.render;
+    options.progress = progress;
+    options.user = &drawing;
+    painter->own.statistics = painter->made;
+    painter->own.quick = stage == TURNER_STAGE_QUICK;
+    painter->started = painter->shown = turner_seconds();
+    TURNER_TRY(turner_renderer_look(&painter->renderer, &scene));
+    TURNER_TRY(turner_renderer_draw(&painter->renderer, image, &options,
+                                    &painter->own.statistics));
+    bool last = whole || turner_painter_next(wish, stage) == TURNER_STAGE_DONE;
+    painter->count++;
+    publish(painter, image, &settings, last ? TURNER_STAGE_DONE : stage, 1);
+    if (stage == TURNER_STAGE_QUICK)
+        turner_pace_took(&painter->pace, settings.depth,
+                         (double)settings.width * settings.height, painter->own.seconds);
+    return TURNER_OK;
+}

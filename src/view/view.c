@@ -1,0 +1,291 @@
+/* The window's thread: events, wishes for the painter, what it drew on the screen. */
+#include "view/view.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "image/image.h"
+#include "view/session.h"
+
+#define ANIMATE_SECONDS 0.008
+/* How long events are waited for at most: drivers read from the display's connection as they present,
+ * in threads of their own, and an event that came that way wakes nobody. */
+#define BUSY_SECONDS 0.02
+#define PRESENTED_SECONDS 1.0 /* after the last frame */
+#define PRESENTED_WAIT 0.05
+#define REST_WAIT 1.0
+#define TOAST_SECONDS 3.0
+#define PAUSE_SECONDS 0.25 /* frames that are farther apart are not of one motion */
+
+void turner_session_say(struct turner_session *session, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(session->toast, sizeof session->toast, format, arguments);
+    va_end(arguments);
+    session->toast_end = turner_seconds() + TOAST_SECONDS;
+    session->dirty = true;
+    session->settle = 1;
+}
+
+static void display_gone(void)
+{
+    turner_image_abandon();
+    fprintf(stderr, "turner: error: the display is gone, and the window with it\n");
+    _exit(TURNER_DEVICE);
+}
+
+/* In any thread, from when the window is there. */
+static void wake(void *user)
+{
+    struct turner_session *session = user;
+    session->functions->wake(session->window);
+}
+
+/* ---- what the report says ---- */
+
+static void count_moved(struct turner_session *session, double now)
+{
+    struct turner_view_report *report = session->report;
+    double since = now - session->last_moved;
+    bool moved = session->sight.quick && session->wish.moving;
+    if (moved && session->last_moved > 0 && since < PAUSE_SECONDS) {
+        size_t count = report->moved;
+        *TURNER_PUSH(report->intervals, count, session->interval_room) = since;
+        report->moved = (unsigned)count;
+        report->moved_seconds += since;
+        report->scale += (double)session->sight.width / session->wish.settings.width;
+        report->depth += session->sight.settings.depth;
+    }
+    session->last_moved = moved ? now : 0;
+}
+
+static void count_frame(struct turner_session *session, bool fresh)
+{
+    struct turner_view_report *report = session->report;
+    double now = turner_seconds();
+    report->frames++;
+    session->presented = now;
+    if (!fresh)
+        return;
+    if (report->first_picture == 0)
+        report->first_picture = now - session->options->start;
+    if (report->full_picture == 0 && session->sight.stage == TURNER_STAGE_DONE)
+        report->full_picture = now - session->options->start;
+    count_moved(session, now);
+}
+
+static void finish_report(struct turner_session *session)
+{
+    struct turner_view_report *report = session->report;
+    struct turner_window_state state;
+    session->functions->state(session->window, &state);
+    const struct turner_statistics *statistics = &session->sight.statistics;
+    snprintf(report->device, sizeof report->device, "%s", statistics->device);
+    snprintf(report->traversal, sizeof report->traversal, "%s",
+             statistics->traversal ? statistics->traversal : "");
+    snprintf(report->presenting, sizeof report->presenting, "%s", state.device);
+    report->width = session->wish.settings.width;
+    report->height = session->wish.settings.height;
+    if (report->moved) {
+        report->scale /= report->moved;
+        report->depth /= report->moved;
+    }
+}
+
+/* ---- the loop ---- */
+
+static void follow_size(struct turner_session *session)
+{
+    struct turner_window_state state;
+    session->functions->state(session->window, &state);
+    struct turner_settings *settings = &session->wish.settings;
+    if (!state.width || (state.width == settings->width && state.height == settings->height))
+        return;
+    settings->width = state.width < TURNER_MAX_SIZE ? state.width : TURNER_MAX_SIZE;
+    settings->height = state.height < TURNER_MAX_SIZE ? state.height : TURNER_MAX_SIZE;
+    if (settings->spd_grid && settings->height < 3)
+        settings->height = 3;
+    session->changed = session->moving = session->dirty = true;
+}
+
+static void send_wish(struct turner_session *session)
+{
+    if (!session->changed)
+        return;
+    session->wish.moving = session->moving;
+    turner_painter_wish(&session->painter, &session->wish);
+    session->changed = session->moving = false;
+}
+
+static enum turner_result present(struct turner_session *session, bool fresh)
+{
+    const struct turner_window_functions *functions = session->functions;
+    if (!session->dirty && !fresh && !session->settle)
+        return TURNER_OK;
+    if (fresh && functions->picture(session->window, session->sight.rgba, session->sight.width,
+                                    session->sight.height) != TURNER_WINDOW_OK)
+        return turner_fail(TURNER_DEVICE, "%s", functions->reason(session->window));
+    session->settle = session->dirty ? 1 : session->settle > 0 ? session->settle - 1 : 0;
+    session->dirty = false;
+    turner_session_boxes(session);
+    switch (functions->show(session->window)) {
+    case TURNER_WINDOW_OK: count_frame(session, fresh); break;
+    case TURNER_WINDOW_HIDDEN: session->settle = 0; break;
+    case TURNER_WINDOW_FAILED:
+        return turner_fail(TURNER_DEVICE, "%s", functions->reason(session->window));
+    }
+    return TURNER_OK;
+}
+
+/* How long nothing has to be done. */
+static double idle_seconds(const struct turner_session *session, bool animated)
+{
+    double now = turner_seconds();
+    bool busy = session->sight.stage != TURNER_STAGE_DONE;
+    double seconds = busy ? BUSY_SECONDS
+                     : now - session->presented < PRESENTED_SECONDS ? PRESENTED_WAIT
+                                                                    : REST_WAIT;
+    const struct turner_view_options *options = session->options;
+    if (animated)
+        seconds = ANIMATE_SECONDS;
+    if (session->settle || session->dirty)
+        seconds = 0;
+    if (session->toast_end > 0)
+        seconds = fmin(seconds, fmax(session->toast_end - now, 0.001));
+    if (options->seconds > 0)
+        seconds = fmin(seconds, fmax(options->start + options->seconds - now, 0.001));
+    return seconds;
+}
+
+static void end_toast(struct turner_session *session)
+{
+    if (session->toast_end > 0 && turner_seconds() >= session->toast_end) {
+        session->toast_end = 0;
+        session->dirty = true;
+    }
+}
+
+static bool time_is_up(const struct turner_session *session)
+{
+    const struct turner_view_options *options = session->options;
+    return options->seconds > 0 && turner_seconds() - options->start >= options->seconds;
+}
+
+static enum turner_result loop(struct turner_session *session)
+{
+    const struct turner_window_functions *functions = session->functions;
+    bool animated = false;
+    double seconds = 0;
+    char reply[1024];
+    while (!session->quit && !time_is_up(session)) {
+        struct turner_window_event event;
+        functions->wait(session->window, seconds);
+        while (functions->next(session->window, &event))
+            turner_session_event(session, &event);
+        if (turner_signals_caught())
+            return turner_fail(TURNER_INTERRUPTED, "%s", "");
+        animated = turner_session_animate(session);
+        follow_size(session);
+        send_wish(session);
+        bool fresh = turner_painter_take(&session->painter, &session->sight);
+        TURNER_TRY(turner_painter_result(&session->painter));
+        if (turner_painter_reply(&session->painter, reply))
+            turner_session_say(session, "%s", reply);
+        end_toast(session);
+        TURNER_TRY(present(session, fresh));
+        seconds = idle_seconds(session, animated);
+    }
+    return TURNER_OK;
+}
+
+/* ---- from beginning to end ---- */
+
+/* The painter draws already while the window opens. */
+struct doorbell {
+    pthread_mutex_t mutex;
+    struct turner_session *session; /* NULL until the window is there */
+};
+
+static void ring(void *user)
+{
+    struct doorbell *bell = user;
+    pthread_mutex_lock(&bell->mutex);
+    if (bell->session)
+        wake(bell->session);
+    pthread_mutex_unlock(&bell->mutex);
+}
+
+static void answer(struct doorbell *bell, struct turner_session *session)
+{
+    pthread_mutex_lock(&bell->mutex);
+    bell->session = session;
+    pthread_mutex_unlock(&bell->mutex);
+}
+
+static enum turner_result open_window(struct turner_session *session)
+{
+    const struct turner_view_options *options = session->options;
+    char title[512], reason[TURNER_WINDOW_REASON];
+    const char *slash = strrchr(options->path, '/');
+    const char *validation = getenv("TURNER_VALIDATION");
+    snprintf(title, sizeof title, "%s – turner", slash ? slash + 1 : options->path);
+    struct turner_window_options window = {
+        .title = title,
+        .width = session->wish.settings.width,
+        .height = session->wish.settings.height,
+        .device = options->render.device,
+        .validation = validation && strcmp(validation, "1") == 0,
+        .gone = display_gone,
+    };
+    session->functions = turner_window_load();
+    if (!session->functions)
+        return TURNER_DEVICE;
+    session->window = session->functions->open(&window, reason);
+    return session->window ? TURNER_OK
+                           : turner_fail(TURNER_DEVICE, "%s; turner render draws without a window",
+                                         reason);
+}
+
+enum turner_result turner_view(const struct turner_view_options *options,
+                               struct turner_view_report *report)
+{
+    struct turner_session session = {
+        .options = options,
+        .report = report,
+        .wish = {options->scene->camera, options->scene->settings, false},
+        .home = options->scene->camera,
+        .clock = turner_seconds(),
+    };
+    struct doorbell bell = {.mutex = PTHREAD_MUTEX_INITIALIZER};
+    struct turner_painter_options painter = {options->render, options->write, ring, &bell};
+    *report = (struct turner_view_report){0};
+    TURNER_TRY(turner_signals_start());
+    enum turner_result result = turner_painter_start(&session.painter, options->scene,
+                                                     &session.wish, options->opening, &painter);
+    if (result != TURNER_OK) {
+        turner_signals_stop();
+        return result;
+    }
+    TURNER_TRY_DONE(open_window(&session));
+    answer(&bell, &session);
+    turner_signals_to(wake, &session);
+    if (!options->quiet)
+        turner_session_say(&session, "F1: keys   Tab: panel");
+    result = loop(&session);
+    finish_report(&session);
+    turner_signals_stop();
+done:
+    answer(&bell, NULL);
+    turner_signals_stop();
+    turner_painter_stop(&session.painter);
+    if (session.window)
+        session.functions->close(session.window);
+    turner_sight_destroy(&session.sight);
+    return result;
+}

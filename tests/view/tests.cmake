@@ -1,0 +1,25 @@
+# The window as it is used: a display in memory, and xdotool at its mouse and keys.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+set(view_script ${CMAKE_CURRENT_LIST_DIR}/view.py)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${view_script})
+execute_process(COMMAND ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 TURNER=
+                        ${Python3_EXECUTABLE} ${view_script} list
+                OUTPUT_VARIABLE view_tests OUTPUT_STRIP_TRAILING_WHITESPACE
+                COMMAND_ERROR_IS_FATAL ANY)
+string(REPLACE "\n" ";" view_tests "${view_tests}")
+foreach(name IN LISTS view_tests)
+    add_test(NAME view_${name} COMMAND Python3::Interpreter ${view_script} ${name})
+    set_tests_properties(view_${name} PROPERTIES SKIP_RETURN_CODE 77 LABELS device TIMEOUT 600
+        ENVIRONMENT "TURNER=$<TARGET_FILE:turner>;PYTHONDONTWRITEBYTECODE=1;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/view")
+endforeach()
+
+# What needs no window.
+if(TARGET turner_view)
+    function(turner_view_test name)
+        turner_unit_test(view_${name} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/test_view_${name}.c
+                         LAYERS base)
+        target_sources(test_view_${name} PRIVATE ${ARGN})
+    endfunction()
+    turner_view_test(pace ${PROJECT_SOURCE_DIR}/src/view/pace.c)
+    turner_view_test(camera ${PROJECT_SOURCE_DIR}/src/view/camera.c)
+endif()
