@@ -38,7 +38,10 @@ static void print_help(void)
          "  -m, --method NAME=VALUE  a way to compute; turner params lists them (may be repeated)\n"
          "  -d, --device D         index or part of the name (turner devices)\n"
          "      --traversal KIND   auto | bvh | bvh_lane | bvh_packet | ray_query\n"
+         "      --set NAME=VALUE   a parameter of the shaders; turner params SCENE lists them (may be\n"
+         "                         repeated)\n"
          "      --shader-dir DIR   take shaders from here first (may be repeated)\n"
+         "      --no-scene-shaders leave out the shaders of the scene's own folder (docs/shaders.md)\n"
          "      --spin SECONDS     the camera goes around by itself, once in so long\n"
          "      --seconds S        close after so long\n"
          "      --stats FILE       time to the first picture, pictures a second while moving and what\n"
@@ -74,6 +77,8 @@ static const struct option long_options[] = {
     {"device", required_argument, NULL, 'd'},
     {"traversal", required_argument, NULL, TURNER_OPTION_TRAVERSAL},
     {"shader-dir", required_argument, NULL, TURNER_OPTION_SHADER_DIR},
+    {"set", required_argument, NULL, TURNER_OPTION_SET},
+    {"no-scene-shaders", no_argument, NULL, TURNER_OPTION_NO_SCENE_SHADERS},
     {"spin", required_argument, NULL, SPIN},
     {"seconds", required_argument, NULL, SECONDS},
     {"stats", required_argument, NULL, STATS},

@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "image/image.h"
+#include "render/shader_path.h"
 #include "view/session.h"
 
 #define ANIMATE_SECONDS 0.008
@@ -264,12 +265,15 @@ enum turner_result turner_view(const struct turner_view_options *options,
     };
     struct doorbell bell = {.mutex = PTHREAD_MUTEX_INITIALIZER};
     struct turner_painter_options painter = {options->render, options->write, ring, &bell};
+    struct turner_shader_path path;
     *report = (struct turner_view_report){0};
     TURNER_TRY(turner_signals_start());
+    turner_shader_path_create(&path, &painter.render, options->scene);
     enum turner_result result = turner_painter_start(&session.painter, options->scene,
                                                      &session.wish, options->opening, &painter);
     if (result != TURNER_OK) {
         turner_signals_stop();
+        turner_shader_path_destroy(&path);
         return result;
     }
     TURNER_TRY_DONE(open_window(&session));
@@ -287,5 +291,6 @@ done:
     if (session.window)
         session.functions->close(session.window);
     turner_sight_destroy(&session.sight);
+    turner_shader_path_destroy(&path);
     return result;
 }
