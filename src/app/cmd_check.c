@@ -4,17 +4,20 @@
 
 #include "app/app.h"
 #include "app/check_needs.h"
-#include "gpu/compiler.h"
-#include "gpu/include.h"
+#include "app/check_shader.h"
 #include "render/advice.h"
 
 static void print_help(void)
 {
-    puts("Usage: turner check [OPTION]… FILE…\n\n"
-         "Reads scenes (.json .nff and meshes) and compiles shaders (.comp .glsl, looked for in\n"
-         "their own folder first) without drawing anything. Says what each scene holds and needs\n"
-         "of the kernel, or what is wrong as file:line:column: message, and warns where a scene\n"
-         "asks for more than its picture can show. Exit status 0 when all is well, 3 otherwise.\n\n"
+    puts("Usage: turner check [OPTION]… FILE…\n"
+         "       turner check --template HOOK\n\n"
+         "Reads scenes (.json .nff and meshes) without drawing anything: says what each holds and\n"
+         "needs of the kernel, and warns where it asks for more than its picture can show.\n"
+         "Compiles shaders (.comp .glsl) in every kernel they are part of: a file takes the place of\n"
+         "turner's of that name, or of the hook whose function it defines (docs/shaders.md).\n"
+         "What is wrong is said as file:line:column: message. Exit status 0 when all is well, 3\n"
+         "otherwise.\n\n"
+         "      --template HOOK print a hook to begin with: surface, brdf, background, light, post\n"
          "      --needs         what each scene needs and who asks for it, how deep rays can go,\n"
          "                      what double precision could show, what was left out of the kernel\n"
          "                      and how large it is (docs/needs.md)\n"
@@ -30,6 +33,7 @@ static void print_help(void)
          "  -q, --quiet         say only what is wrong\n"
          "  -h, --help          this text\n\n"
          "Examples: turner check --needs scenes/prism.json\n"
+         "          turner check --template brdf > brdf.glsl && turner check brdf.glsl\n"
          "          turner check --measure out --size 320x240 scenes/prism.json scenes/mesh.json");
 }
 
@@ -59,6 +63,7 @@ static void describe(const char *path, const struct turner_scene *scene)
 
 struct arguments {
     bool needs, json, quiet;
+    const char *template;  /* the hook whose file is to be printed, or NULL */
     struct turner_measure measure; /* when its folder is set */
 };
 
@@ -89,46 +94,6 @@ static enum turner_result check_scene(const struct arguments *a, const char *pat
     return result;
 }
 
-/* Whether the kernel includes a file of that name. */
-static bool includes(const struct turner_shader_source *source, const char *name)
-{
-    for (size_t i = 0; i < source->file_count; i++) {
-        if (strcmp(source->files[i].name, name) == 0)
-            return true;
-    }
-    return false;
-}
-
-/* `path` as a shader of its own (.comp), or as an include put into the renderer's place of it. */
-static enum turner_result check_shader(const char *path, bool quiet)
-{
-    const char *slash = strrchr(path, '/');
-    const char *name = slash ? slash + 1 : path;
-    char folder[4096] = ".";
-    if (slash)
-        snprintf(folder, sizeof folder, "%.*s", (int)(slash - path), path);
-    const char *const folders[] = {folder};
-    const char *ending = strrchr(name, '.');
-    struct turner_shader_source source;
-    struct turner_spirv spirv = {0};
-    enum turner_result result;
-    TURNER_TRY_DONE(turner_shader_source_create(
-        &source, ending && strcmp(ending, ".comp") == 0 ? name : "render.comp", folders, 1));
-    if (!includes(&source, name)) {
-        result = turner_fail(TURNER_BAD_INPUT, "%s: the kernel includes no file of that name; a "
-                                               "shader replaces one of shaders/", path);
-        goto done;
-    }
-    TURNER_TRY_DONE(turner_compile(&spirv, &source, NULL, 0));
-    TURNER_TRY_DONE(turner_spirv_validate(&spirv));
-    if (!quiet)
-        printf("%s: compiles to %zu words of SPIR-V\n", path, spirv.count);
-done:
-    turner_spirv_destroy(&spirv);
-    turner_shader_source_destroy(&source);
-    return result;
-}
-
 static bool is_shader(const char *path)
 {
     const char *ending = strrchr(path, '.');
@@ -136,7 +101,7 @@ static bool is_shader(const char *path)
 }
 
 enum { OPTION_NEEDS = 256, OPTION_JSON, OPTION_MEASURE, OPTION_RUNS, OPTION_SIZE, OPTION_SPP,
-       OPTION_TRAVERSAL };
+       OPTION_TRAVERSAL, OPTION_TEMPLATE };
 
 static const struct option long_options[] = {
     {"needs", no_argument, NULL, OPTION_NEEDS},
@@ -145,6 +110,7 @@ static const struct option long_options[] = {
     {"runs", required_argument, NULL, OPTION_RUNS},
     {"size", required_argument, NULL, OPTION_SIZE},
     {"spp", required_argument, NULL, OPTION_SPP},
+    {"template", required_argument, NULL, OPTION_TEMPLATE},
     {"device", required_argument, NULL, 'd'},
     {"traversal", required_argument, NULL, OPTION_TRAVERSAL},
     {"quiet", no_argument, NULL, 'q'},
@@ -169,6 +135,7 @@ static enum turner_result take(struct arguments *a, int option, char **argv)
         m->traversal = (enum turner_traversal)choice;
         return TURNER_OK;
     case 'd': m->device = optarg; return TURNER_OK;
+    case OPTION_TEMPLATE: a->template = optarg; return TURNER_OK;
     case 'q': a->quiet = m->quiet = true; return TURNER_OK;
     }
     return turner_bad_option(argv);
@@ -182,11 +149,12 @@ static enum turner_result check_files(const struct arguments *a, char **paths, s
     cJSON *list = a->json ? cJSON_CreateArray() : NULL;
     for (size_t i = 0; i < count; i++) {
         enum turner_result result =
-            is_shader(paths[i]) ? check_shader(paths[i], a->quiet || list)
+            is_shader(paths[i]) ? turner_check_shader(paths[i], a->quiet || list)
                                 : check_scene(a, paths[i], &kernels, list);
         if (result == TURNER_OK)
             continue;
-        fprintf(stderr, "turner: error: %s\n", turner_message());
+        /* editors look for file:line:column at the beginning */
+        fprintf(stderr, "%s%s\n", is_shader(paths[i]) ? "" : "turner: error: ", turner_message());
         turner_fail(result, "%s", ""); /* said already */
         worst = result;
     }
@@ -211,6 +179,8 @@ enum turner_result turner_cmd_check(int argc, char **argv)
         }
         TURNER_TRY(take(&a, option, argv));
     }
+    if (a.template)
+        return turner_check_template(a.template);
     if (optind == argc)
         return turner_fail(TURNER_USAGE, "check takes scenes or shaders; see turner check --help");
     if (a.json && !a.needs)

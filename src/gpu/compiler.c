@@ -60,6 +60,68 @@ static bool follows_include(char name[256], const struct turner_source_file *fil
     return false;
 }
 
+/* What glslang calls punctuation that it did not expect. */
+static const char *spelling(const char *name, size_t length)
+{
+    static const char *const names[][2] = {
+        {"SEMICOLON", ";"},  {"COMMA", ","},         {"COLON", ":"},       {"EQUAL", "="},
+        {"LEFT_PAREN", "("}, {"RIGHT_PAREN", ")"},   {"LEFT_BRACE", "{"},  {"RIGHT_BRACE", "}"},
+        {"DOT", "."},        {"LEFT_BRACKET", "["},  {"RIGHT_BRACKET", "]"}, {"BANG", "!"},
+        {"PLUS", "+"},       {"DASH", "-"},          {"STAR", "*"},        {"SLASH", "/"},
+        {"LEFT_ANGLE", "<"}, {"RIGHT_ANGLE", ">"},   {"QUESTION", "?"},
+    };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (strlen(names[i][0]) == length && strncmp(names[i][0], name, length) == 0)
+            return names[i][1];
+    }
+    return NULL;
+}
+
+static bool is_word(char c)
+{
+    return isalnum((unsigned char)c) || c == '_';
+}
+
+/* Where `token` stands in the line first, as a word of its own; NULL where it does not. */
+static const char *find_token(const char *code, const char *end, const char *token, size_t length)
+{
+    for (const char *at = code; length && at + length <= end; at++) {
+        if (strncmp(at, token, length) != 0)
+            continue;
+        if (is_word(*token) && ((at > code && is_word(at[-1])) ||
+                                (at + length < end && is_word(at[length]))))
+            continue;
+        return at;
+    }
+    return NULL;
+}
+
+/* The column of what the message is about, in bytes from 1. glslang names the token alone, and not
+ * always: else it is where the line's text begins. */
+static int column_of(const char *code, const char *end, const char *message, size_t length)
+{
+    static const char unexpected[] = "unexpected ";
+    const char *token = NULL, *found = NULL;
+    size_t size = 0;
+    if (length && *message == '\'') {
+        const char *close = memchr(message + 1, '\'', length - 1);
+        token = message + 1;
+        size = close ? (size_t)(close - token) : 0;
+    } else {
+        const char *name = strstr(message, unexpected);
+        if (name && name < message + length) {
+            name += strlen(unexpected);
+            token = spelling(name, strcspn(name, " ,\n"));
+            size = token ? strlen(token) : 0;
+        }
+    }
+    if (size)
+        found = find_token(code, end, token, size);
+    if (!found)
+        found = code + strspn(code, " \t");
+    return found < end ? (int)(found - code) + 1 : 1;
+}
+
 /* One line of glslang's log, "ERROR: 3:12: …" with the index of a file and a line of it. */
 static void report_line(struct report *report, const struct turner_shader_source *source,
                         const char *log, size_t length)
@@ -89,13 +151,14 @@ static void report_line(struct report *report, const struct turner_shader_source
     if (report->length)
         report_add(report, "\n");
     if (line == 0 || index >= source->file_count) {
-        report_add(report, "%s: %.*s", source->files[0].path, text_length, text);
+        report_add(report, "%s:1:1: %.*s", source->files[0].path, text_length, text);
         return;
     }
     const struct turner_source_file *file = &source->files[index];
-    report_add(report, "%s:%d: %.*s", file->path, line, text_length, text);
+    const char *end, *code = line_of(file->text, line, &end);
+    report_add(report, "%s:%d:%d: %.*s", file->path, line,
+               column_of(code, end, text, (size_t)text_length), text_length, text);
     if (report->errors == 1) {
-        const char *end, *code = line_of(file->text, line, &end);
         code += strspn(code, " \t");
         if (code < end)
             report_add(report, "\n    %.*s", end - code > 200 ? 200 : (int)(end - code), code);
@@ -114,7 +177,7 @@ static enum turner_result fail_with_log(const struct turner_shader_source *sourc
         line += length + (line[length] == '\n');
     }
     if (report.errors == 0)
-        report_add(&report, "%s: does not compile: %s", source->files[0].path, log ? log : "");
+        report_add(&report, "%s:1:1: does not compile: %s", source->files[0].path, log ? log : "");
     if (report.errors > SHOWN_ERRORS)
         report_add(&report, "\n(%d more)", report.errors - SHOWN_ERRORS);
     return turner_fail(TURNER_BAD_INPUT, "%s", report.text);
@@ -155,7 +218,7 @@ bool turner_spirv_wants_validation(void)
 #endif
 }
 
-enum turner_result turner_compile(struct turner_spirv *out,
+static enum turner_result compile(struct turner_spirv *out,
                                   const struct turner_shader_source *source,
                                   const char *const *defines, size_t define_count)
 {
@@ -210,6 +273,17 @@ done:
     free(preamble);
     if (result != TURNER_OK)
         turner_spirv_destroy(out);
+    return result;
+}
+
+enum turner_result turner_compile(struct turner_spirv *out,
+                                  const struct turner_shader_source *source,
+                                  const char *const *defines, size_t define_count)
+{
+    static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+    pthread_mutex_lock(&mutex);
+    enum turner_result result = compile(out, source, defines, define_count);
+    pthread_mutex_unlock(&mutex);
     return result;
 }
 

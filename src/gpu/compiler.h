@@ -11,7 +11,7 @@ struct turner_spirv {
 };
 
 /* Compiles a compute shader for Vulkan 1.3 (SPIR-V 1.6). `defines` are "NAME" or "NAME=value".
- * Thread rule: one thread at a time. TURNER_BAD_INPUT with one "file:line: message" a line, the
+ * Thread-safe: one at a time is compiled. TURNER_BAD_INPUT with one "file:line:column: message" a line, the
  * line of source below the first. Builds with assertions, and TURNER_VALIDATION=1, also validate
  * the result with spirv-val. Free with turner_spirv_destroy. */
 enum turner_result turner_compile(struct turner_spirv *out,

@@ -21,6 +21,7 @@ struct expansion {
     struct turner_shader_source *source;
     const char *const *folders;
     size_t folder_count;
+    const struct turner_shader_replacement *replacement; /* or NULL */
     size_t capacity;         /* of source->text */
     enum file_state *states; /* one per source->files */
     size_t state_capacity;
@@ -139,8 +140,10 @@ static enum turner_result find_file(struct expansion *e, const char *name, size_
         if (strcmp(e->source->files[*index].name, name) == 0)
             return TURNER_OK;
     }
-    for (size_t i = 0; i < e->folder_count; i++) {
-        char *path = join(e->folders[i], name), *text;
+    const struct turner_shader_replacement *replacement = e->replacement;
+    bool own = replacement && strcmp(replacement->name, name) == 0;
+    for (size_t i = 0; i < (own ? 1 : e->folder_count); i++) {
+        char *path = own ? turner_strdup(replacement->path) : join(e->folders[i], name), *text;
         enum turner_result result = read_file(&text, path);
         if (text) {
             *index = add_file(e, name, path, text, false);
@@ -156,6 +159,7 @@ static enum turner_result find_file(struct expansion *e, const char *name, size_
             return TURNER_OK;
         }
     }
+    e->source->missing = turner_strdup(name);
     char folders[1024] = "";
     for (size_t i = 0; i < e->folder_count; i++) {
         size_t used = strlen(folders);
@@ -212,22 +216,23 @@ static bool directive_is(const char *text, const char *word, const char **rest)
 static enum turner_result expand(struct expansion *e, size_t index, bool conditional, int depth);
 
 /* The line `#include …`; `rest` is what follows the word. */
-static enum turner_result expand_include(struct expansion *e, size_t includer, int line,
+static enum turner_result expand_include(struct expansion *e, size_t includer, int line, int column,
                                          const char *rest, bool conditional, int depth)
 {
     const char *where = e->source->files[includer].path;
     const char *end = *rest == '"' ? rest + 1 + strcspn(rest + 1, "\"\n") : rest;
     if (end == rest || *end != '"')
-        return turner_fail(TURNER_BAD_INPUT, "%s:%d: write #include \"name\"", where, line);
+        return turner_fail(TURNER_BAD_INPUT, "%s:%d:%d: write #include \"name\"", where, line,
+                           column);
     const char *tail = end + 1 + strspn(end + 1, " \t\r");
     if (*tail && *tail != '\n' && strncmp(tail, "//", 2) != 0)
-        return turner_fail(TURNER_BAD_INPUT, "%s:%d: nothing may follow #include \"name\"", where,
-                           line);
+        return turner_fail(TURNER_BAD_INPUT, "%s:%d:%d: nothing may follow #include \"name\"",
+                           where, line, column);
     char name[256];
     size_t length = (size_t)(end - rest - 1);
     if (length >= sizeof name)
-        return turner_fail(TURNER_BAD_INPUT, "%s:%d: file name of %zu bytes, at most %zu", where,
-                           line, length, sizeof name - 1);
+        return turner_fail(TURNER_BAD_INPUT, "%s:%d:%d: file name of %zu bytes, at most %zu",
+                           where, line, column, length, sizeof name - 1);
     memcpy(name, rest + 1, length);
     name[length] = 0;
 
@@ -235,12 +240,12 @@ static enum turner_result expand_include(struct expansion *e, size_t includer, i
     enum turner_result result = find_file(e, name, &included);
     where = e->source->files[includer].path; /* the array may have moved */
     if (result != TURNER_OK)
-        return turner_fail_within(result, "%s:%d", where, line);
+        return turner_fail_within(result, "%s:%d:%d", where, line, column);
     if (e->states[included] != FILE_CONDITIONAL)
         return append(e, "\n", 1);
     if (depth + 1 >= TURNER_INCLUDE_DEPTH)
-        return turner_fail(TURNER_BAD_INPUT, "%s:%d: more than %d files inside each other", where,
-                           line, TURNER_INCLUDE_DEPTH);
+        return turner_fail(TURNER_BAD_INPUT, "%s:%d:%d: more than %d files inside each other",
+                           where, line, column, TURNER_INCLUDE_DEPTH);
     TURNER_TRY(
         append_format(e, "#ifndef TURNER_FILE_%zu\n#define TURNER_FILE_%zu\n", included, included));
     TURNER_TRY(append_format(e, "#line 1 %zu\n", included));
@@ -279,7 +284,7 @@ static enum turner_result expand_param(struct expansion *e, size_t index, int li
     if (known) {
         param = *known;
     } else if (other) {
-        return turner_fail(TURNER_BAD_INPUT, "%s:%d: parameter \"%s\" is declared before, in "
+        return turner_fail(TURNER_BAD_INPUT, "%s:%d:1: parameter \"%s\" is declared before, in "
                                              "%s:%d", path, line, param.name, other->file,
                            other->line);
     } else {
@@ -287,7 +292,7 @@ static enum turner_result expand_param(struct expansion *e, size_t index, int li
         *TURNER_PUSH(source->params.at, source->params.count, source->params.capacity) = param;
     }
     if (source->param_words > TURNER_PARAM_WORDS)
-        return turner_fail(TURNER_BAD_INPUT, "%s:%d: the parameters take more than %d numbers", path,
+        return turner_fail(TURNER_BAD_INPUT, "%s:%d:1: the parameters take more than %d numbers", path,
                            line, TURNER_PARAM_WORDS);
     turner_param_glsl(glsl, sizeof glsl, &param);
     TURNER_TRY(append(e, glsl, strlen(glsl)));
@@ -298,16 +303,17 @@ static enum turner_result expand(struct expansion *e, size_t index, bool conditi
 {
     const char *path = e->source->files[index].path, *next = e->source->files[index].text;
     struct scan scan = {0};
-    int nested = 0, opened = 0; /* #ifs not yet closed, line of the outermost */
+    int lines = 0, nested = 0, opened = 0; /* #ifs not yet closed, line of the outermost */
     e->states[index] = FILE_OPEN;
     for (int line = 1; *next; line++) {
         const char *text = next, *rest;
         size_t length = strcspn(text, "\n");
+        lines = line;
         next = text + length + (text[length] == '\n');
         bool param = !scan.block_comment && !scan.continued && turner_param_is_line(text, length);
         long hash = scan_line(&scan, text, length);
         if (param && scan.continued)
-            return turner_fail(TURNER_BAD_INPUT, "%s:%d: //!PARAM must end on its own line", path,
+            return turner_fail(TURNER_BAD_INPUT, "%s:%d:1: //!PARAM must end on its own line", path,
                                line);
         if (param) {
             TURNER_TRY(expand_param(e, index, line, text, length));
@@ -316,10 +322,11 @@ static enum turner_result expand(struct expansion *e, size_t index, bool conditi
         const char *directive = hash < 0 ? NULL : text + hash;
         if (directive && directive_is(directive, "include", &rest) && *rest != '<') {
             if (scan.continued || scan.block_comment)
-                return turner_fail(TURNER_BAD_INPUT, "%s:%d: #include must end on its own line",
-                                   path, line);
+                return turner_fail(TURNER_BAD_INPUT, "%s:%d:%ld: #include must end on its own line",
+                                   path, line, hash + 1);
             TURNER_TRY(append(e, text, (size_t)hash)); /* a comment may end here */
-            TURNER_TRY(expand_include(e, index, line, rest, conditional || nested > 0, depth));
+            TURNER_TRY(expand_include(e, index, line, (int)hash + 1, rest,
+                                      conditional || nested > 0, depth));
             continue;
         }
         if (directive && directive_is(directive, "pragma", &rest) && !strncmp(rest, "once", 4)) {
@@ -333,15 +340,17 @@ static enum turner_result expand(struct expansion *e, size_t index, bool conditi
             if (nested++ == 0)
                 opened = line;
         } else if (directive && directive_is(directive, "endif", &rest) && nested-- == 0) {
-            return turner_fail(TURNER_BAD_INPUT, "%s:%d: #endif without #if", path, line);
+            return turner_fail(TURNER_BAD_INPUT, "%s:%d:%ld: #endif without #if", path, line,
+                               hash + 1);
         }
         TURNER_TRY(append(e, text, length));
         TURNER_TRY(append(e, "\n", 1));
     }
     if (nested > 0)
-        return turner_fail(TURNER_BAD_INPUT, "%s:%d: #if without #endif", path, opened);
+        return turner_fail(TURNER_BAD_INPUT, "%s:%d:1: #if without #endif", path, opened);
     if (scan.block_comment || scan.continued)
-        return turner_fail(TURNER_BAD_INPUT, "%s: ends inside a comment or a continued line", path);
+        return turner_fail(TURNER_BAD_INPUT, "%s:%d:1: ends inside a comment or a continued line",
+                           path, lines);
     e->states[index] = conditional ? FILE_CONDITIONAL : FILE_DONE;
     return TURNER_OK;
 }
@@ -366,9 +375,17 @@ enum turner_result turner_shader_source_create(struct turner_shader_source *sour
                                                const char *name, const char *const *folders,
                                                size_t folder_count)
 {
+    return turner_shader_source_create_with(source, name, folders, folder_count, NULL);
+}
+
+enum turner_result turner_shader_source_create_with(
+    struct turner_shader_source *source, const char *name, const char *const *folders,
+    size_t folder_count, const struct turner_shader_replacement *replacement)
+{
     *source = (struct turner_shader_source){0};
     TURNER_TRY(check_folders(folders, folder_count));
-    struct expansion e = {.source = source, .folders = folders, .folder_count = folder_count};
+    struct expansion e = {.source = source, .folders = folders, .folder_count = folder_count,
+                          .replacement = replacement};
     size_t index;
     enum turner_result result = find_file(&e, name, &index);
     if (result == TURNER_OK)
@@ -397,6 +414,7 @@ void turner_shader_source_destroy(struct turner_shader_source *source)
         free(source->files[i].text);
     }
     free(source->files);
+    free(source->missing);
     turner_params_destroy(&source->params);
     free(source->text);
     *source = (struct turner_shader_source){0};

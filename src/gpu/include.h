@@ -34,13 +34,14 @@ struct turner_shader_source {
     size_t length;
     struct turner_source_file *files; /* [0] is the first one; in order of inclusion */
     size_t file_count, file_capacity;
+    char *missing; /* after a failure: the name of a file that was not there, or NULL */
     struct turner_params params; /* declared in them, in order; all have different names */
     uint32_t param_words;        /* that they take */
 };
 
 /* Reads `name` and expands it. `source` owns everything; destroy it also after a failure: it then
  * holds the files read so far, so that a program that watches them sees the repair.
- * TURNER_BAD_INPUT for a folder that is not there or not readable, and with "file:line: …" and the
+ * TURNER_BAD_INPUT for a folder that is not there or not readable, and with "file:line:column: …" and the
  * folders searched for a file that is not there or unreadable, a
  * malformed #include or //!PARAM, one declared twice, too much nesting or text, or a zero byte. */
 enum turner_result turner_shader_source_create(struct turner_shader_source *source,
@@ -50,6 +51,13 @@ enum turner_result turner_shader_source_create(struct turner_shader_source *sour
 enum turner_result turner_shader_source_from_text(struct turner_shader_source *source,
                                                   const char *name, const char *text,
                                                   const char *const *folders, size_t folder_count);
+/* The same with one file found at a place of its own, whatever the folders hold. */
+struct turner_shader_replacement {
+    const char *name, *path;
+};
+enum turner_result turner_shader_source_create_with(
+    struct turner_shader_source *source, const char *name, const char *const *folders,
+    size_t folder_count, const struct turner_shader_replacement *replacement);
 void turner_shader_source_destroy(struct turner_shader_source *source);
 
 #endif

@@ -68,11 +68,8 @@ enum turner_result turner_hooks_find(uint32_t *hooks, char paths[512],
     return TURNER_OK;
 }
 
-void turner_hooks_widen(struct turner_needs *needs, uint32_t hooks,
-                        const struct turner_scene *scene)
+void turner_hooks_widen(struct turner_needs *needs, const struct turner_scene *scene)
 {
-    if (!(hooks & 1u << TURNER_HOOK_SURFACE))
-        return;
     /* a checker's pattern is what asks for texture coordinates */
     uint32_t bits = TURNER_NEEDS_SPECULAR | TURNER_NEEDS_REFLECTION | TURNER_NEEDS_CHECKER;
     if (needs->bits & TURNER_NEEDS_TRANSMISSION && scene->settings.depth <= TURNER_MAX_BRANCH_DEPTH)

@@ -30,10 +30,9 @@ uint32_t turner_hooks_of(const struct turner_shader_source *source);
 enum turner_result turner_hooks_find(uint32_t *hooks, char paths[512],
                                      const struct turner_render_options *options);
 
-/* Adds to what the scene needs what a hook can ask for besides: a surface may have a highlight, a
- * mirror's share or a pattern that no material of the scene has. */
-void turner_hooks_widen(struct turner_needs *needs, uint32_t hooks,
-                        const struct turner_scene *scene);
+/* Adds to what the scene needs what a replaced surface can ask for besides: a highlight, a mirror's
+ * share or a pattern that no material of the scene has. */
+void turner_hooks_widen(struct turner_needs *needs, const struct turner_scene *scene);
 
 /* Warns that the reference knows nothing of the files that replace hooks, where some do; `what` is
  * what is wrong therefore ("errors are those of the hook, too"). */

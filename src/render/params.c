@@ -77,7 +77,7 @@ static enum turner_result add_param(struct turner_params *params, const struct t
 {
     const struct turner_param *known = turner_params_get(params, param->name);
     if (known && (known->line != param->line || strcmp(known->file, param->file) != 0))
-        return turner_fail(TURNER_BAD_INPUT, "%s:%d: parameter \"%s\" is declared before, in %s:%d",
+        return turner_fail(TURNER_BAD_INPUT, "%s:%d:1: parameter \"%s\" is declared before, in %s:%d",
                            param->file, param->line, param->name, known->file, known->line);
     if (!known)
         *TURNER_PUSH(params->at, params->count, params->capacity) = *param;

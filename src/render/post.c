@@ -6,16 +6,25 @@
 #include "render/renderer.h"
 #include "../shaders/shared.h"
 
-static enum turner_result create_program(struct turner_post *post, struct turner_gpu *gpu,
-                                         const struct turner_kernel *kernel,
-                                         const struct turner_scene *scene)
+enum turner_result turner_post_create_program(struct turner_post *post, struct turner_gpu *gpu,
+                                              const struct turner_kernel *kernel,
+                                              const struct turner_scene *scene)
 {
     struct turner_constant constants[TURNER_PARAM_WORDS];
     size_t count = 0;
+    *post = (struct turner_post){.wanted = true};
     TURNER_TRY(turner_params_constants(constants, &count, &kernel->params, scene));
-    TURNER_TRY(turner_param_block_create(&post->params, gpu, &kernel->params, scene));
     return turner_program_create(&post->program, gpu, &kernel->spirv, constants, count,
                                  VK_NULL_HANDLE);
+}
+
+enum turner_result turner_post_create_buffers(struct turner_post *post, struct turner_gpu *gpu,
+                                              const struct turner_kernel *kernel,
+                                              const struct turner_scene *scene)
+{
+    TURNER_TRY(turner_param_block_create(&post->params, gpu, &kernel->params, scene));
+    return turner_buffer_create(&post->pixels, gpu, TURNER_POST_PIXELS * 4 * sizeof(float), 0,
+                                TURNER_MEMORY_HOST, "pixels for user/post.glsl");
 }
 
 static enum turner_result create(struct turner_post *post, struct turner_gpu *gpu,
@@ -24,14 +33,11 @@ static enum turner_result create(struct turner_post *post, struct turner_gpu *gp
 {
     struct turner_kernel kernel;
     enum turner_result result = turner_kernel_create_from(&kernel, "post.comp", 0, options);
-    if (result == TURNER_OK && kernel.hooks & 1u << TURNER_HOOK_POST) {
-        post->wanted = true;
-        result = create_program(post, gpu, &kernel, scene);
-    }
+    if (result == TURNER_OK)
+        result = turner_post_create_program(post, gpu, &kernel, scene);
+    if (result == TURNER_OK)
+        result = turner_post_create_buffers(post, gpu, &kernel, scene);
     turner_kernel_destroy(&kernel);
-    if (result == TURNER_OK && post->wanted)
-        result = turner_buffer_create(&post->pixels, gpu, TURNER_POST_PIXELS * 4 * sizeof(float), 0,
-                                      TURNER_MEMORY_HOST, "pixels for user/post.glsl");
     return result;
 }
 

@@ -89,6 +89,19 @@ enum turner_result turner_kernel_create_from(struct turner_kernel *kernel, const
                                              unsigned kind,
                                              const struct turner_render_options *options)
 {
+    memset(kernel, 0, sizeof *kernel);
+    struct turner_shader_source source;
+    enum turner_result result = turner_shader_source_create(&source, file, options->shader_dirs,
+                                                            options->shader_dir_count);
+    if (result == TURNER_OK)
+        result = turner_kernel_compile(kernel, kind, &source, options->no_cache);
+    turner_shader_source_destroy(&source);
+    return result;
+}
+
+enum turner_result turner_kernel_compile(struct turner_kernel *kernel, unsigned kind,
+                                         struct turner_shader_source *source, bool no_cache)
+{
     static const char *const names[] = {
         "TURNER_RAY_QUERY", "TURNER_PACKET",     "TURNER_F64",            "TURNER_SPHERE_F64",
         "TURNER_RECORD",    "TURNER_PROBE_HITS", "TURNER_PROBE_RADIANCE", "TURNER_RAYS_SEND"};
@@ -100,19 +113,12 @@ enum turner_result turner_kernel_create_from(struct turner_kernel *kernel, const
     }
     memset(kernel, 0, sizeof *kernel);
     kernel->kind = kind;
-    struct turner_shader_source source;
-    enum turner_result result;
-    TURNER_TRY_DONE(turner_shader_source_create(&source, file, options->shader_dirs,
-                                                options->shader_dir_count));
-    kernel->hooks = turner_hooks_of(&source);
-    kernel->params = source.params;
-    source.params = (struct turner_params){0};
-    result = options->no_cache ? turner_compile(&kernel->spirv, &source, defines, count)
-                               : turner_compile_cached(&kernel->spirv, &kernel->cached, &source,
-                                                       defines, count);
-done:
-    turner_shader_source_destroy(&source);
-    return result;
+    kernel->hooks = turner_hooks_of(source);
+    kernel->params = source->params;
+    source->params = (struct turner_params){0};
+    return no_cache
+               ? turner_compile(&kernel->spirv, source, defines, count)
+               : turner_compile_cached(&kernel->spirv, &kernel->cached, source, defines, count);
 }
 
 void turner_kernel_destroy(struct turner_kernel *kernel)
@@ -194,8 +200,6 @@ static enum turner_result create(struct turner_renderer *renderer,
                                  struct turner_statistics *statistics)
 {
     struct turner_gpu *gpu = renderer->gpu;
-    if (options->unspecialised)
-        renderer->needs.bits = TURNER_NEEDS_ALL;
 
     double start = turner_seconds();
     TURNER_TRY(turner_flat_create(&renderer->flat, scene,
@@ -278,11 +282,18 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
     assert((kernel->kind & (TURNER_F64 | TURNER_SPHERE_F64)) ==
            kind_of(&scene->settings.methods));
     renderer->gpu = gpu;
+    renderer->kind = kernel->kind;
     renderer->ray_query = kernel->kind & TURNER_RAY_QUERY;
     struct turner_scene deep = deep_enough(scene);
     renderer->needs = turner_needs_of(&deep);
-    turner_hooks_widen(&renderer->needs, kernel->hooks, &deep);
     renderer->needs.pixel_counts = turner_layers_want(options->layers, TURNER_LAYERS_OF_RAYS);
+    if (options->unspecialised)
+        renderer->needs.bits = TURNER_NEEDS_ALL;
+    renderer->needs_of_scene = renderer->needs;
+    renderer->needs_of_surface = renderer->needs;
+    turner_hooks_widen(&renderer->needs_of_surface, &deep);
+    if (kernel->hooks & 1u << TURNER_HOOK_SURFACE)
+        renderer->needs = renderer->needs_of_surface;
     renderer->settings = deep.settings;
     renderer->glow = turner_follow_glow(scene);
     renderer->tile = options->tile;
@@ -292,6 +303,17 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
     if (result != TURNER_OK)
         turner_renderer_destroy(renderer);
     return result;
+}
+
+enum turner_result turner_renderer_set_bounds(struct turner_renderer *renderer,
+                                              const struct turner_needs *needs)
+{
+    const struct turner_buffer *block = &renderer->scene.arrays[TURNER_ARRAY_SCENE];
+    TURNER_TRY(turner_buffer_upload(renderer->gpu, block, offsetof(struct turner_gpu_scene, max_steps),
+                                    &needs->max_steps, sizeof needs->max_steps));
+    return turner_buffer_upload(renderer->gpu, block,
+                                offsetof(struct turner_gpu_scene, max_crossings),
+                                &needs->max_crossings, sizeof needs->max_crossings);
 }
 
 enum turner_result turner_renderer_set_params(struct turner_renderer *renderer,

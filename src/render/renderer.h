@@ -36,6 +36,9 @@ enum turner_result turner_kernel_create(struct turner_kernel *kernel, unsigned k
 enum turner_result turner_kernel_create_from(struct turner_kernel *kernel, const char *file,
                                              unsigned kind,
                                              const struct turner_render_options *options);
+/* The same of source that has been read; the kernel takes its parameters from it. */
+enum turner_result turner_kernel_compile(struct turner_kernel *kernel, unsigned kind,
+                                         struct turner_shader_source *source, bool no_cache);
 void turner_kernel_destroy(struct turner_kernel *kernel);
 
 /* What specialises a kernel to a scene. */
@@ -62,8 +65,11 @@ enum turner_result turner_kernel_size(size_t *bytes, const struct turner_kernel 
 
 struct turner_renderer {
     struct turner_gpu *gpu; /* not owned */
+    unsigned kind;          /* of its kernel */
     bool ray_query;
     struct turner_needs needs;
+    struct turner_needs needs_of_scene, needs_of_surface; /* without what hooks ask for besides, and
+                                                             with what a replaced surface does */
     struct turner_flat flat;
     struct turner_device_scene scene;
     struct turner_program program;
@@ -118,6 +124,10 @@ enum turner_result turner_renderer_set_params(struct turner_renderer *renderer,
  * renderer that was created for them. Builds and compiles nothing. */
 enum turner_result turner_renderer_look(struct turner_renderer *renderer,
                                         const struct turner_scene *scene);
+
+/* Takes other bounds of loops, with a program that was made for these needs. */
+enum turner_result turner_renderer_set_bounds(struct turner_renderer *renderer,
+                                              const struct turner_needs *needs);
 
 /* Runs the kernel of render.comp on no pixel: a driver that compiles at the first dispatch does so
  * then. */

@@ -1,6 +1,5 @@
 #include "render/shader_path.h"
 
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,16 +36,18 @@ static int folder_length(const char *file)
     return slash ? (int)(slash - file) + 1 : 0;
 }
 
+bool turner_shader_path_of_scene(char folder[PATH_MAX], const struct turner_scene *scene)
+{
+    if (scene->shaders)
+        return snprintf(folder, PATH_MAX, "%s", scene->shaders) < PATH_MAX;
+    return scene->path && snprintf(folder, PATH_MAX, "%.*sshaders", folder_length(scene->path),
+                                   scene->path) < PATH_MAX;
+}
+
 static void add_of_scene(struct turner_shader_path *path, const struct turner_scene *scene)
 {
     char folder[PATH_MAX];
-    if (scene->shaders) {
-        add(path, scene->shaders);
-        return;
-    }
-    if (scene->path && snprintf(folder, sizeof folder, "%.*sshaders", folder_length(scene->path),
-                                scene->path) < (int)sizeof folder &&
-        is_folder(folder))
+    if (turner_shader_path_of_scene(folder, scene) && (scene->shaders || is_folder(folder)))
         add(path, folder);
 }
 

@@ -6,6 +6,8 @@
 #ifndef TURNER_RENDER_SHADER_PATH_H
 #define TURNER_RENDER_SHADER_PATH_H
 
+#include <limits.h>
+
 #include "scene/scene.h"
 
 struct turner_shader_path {
@@ -18,6 +20,8 @@ struct turner_shader_path {
 void turner_shader_path_create(struct turner_shader_path *path,
                                struct turner_render_options *options,
                                const struct turner_scene *scene);
+/* The scene's folder of shaders, be it there or not; false when it has none. */
+bool turner_shader_path_of_scene(char folder[PATH_MAX], const struct turner_scene *scene);
 void turner_shader_path_destroy(struct turner_shader_path *path);
 
 #endif

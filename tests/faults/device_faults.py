@@ -87,8 +87,11 @@ def shader_fault(name, old, new, message):
         require(old in text, f"render.comp has changed: no {old}")
         line = text[:text.index(old)].count("\n") + 1
         place.write("shaders/render.comp", text.replace(old, new, 1))
-        shown = place.files()["shaders/render.comp"].decode().splitlines()[line - 1].strip()
-        messages = [part.replace("LINE", str(line)).replace("TEXT", shown) for part in message]
+        shown_line = place.files()["shaders/render.comp"].decode().splitlines()[line - 1]
+        shown = shown_line.strip()
+        column = shown_line.index(new) + 1 if new in shown_line else 1
+        messages = [part.replace("LINE", str(line)).replace("COLUMN", str(column))
+                    .replace("TEXT", shown) for part in message]
         place.refuses(BAD_INPUT, messages, *RENDER, "--shader-dir", "shaders")
         status, _, err = place.run("check", "shaders/render.comp")
         require(status == BAD_INPUT and all(part in err for part in messages),
@@ -97,11 +100,11 @@ def shader_fault(name, old, new, message):
 
 
 shader_fault("with_unknown_name", "scene_block(dispatch.scene).the", "nonsense",
-             ["error: shaders/render.comp:LINE: 'nonsense' : undeclared identifier", "\n    TEXT\n"])
+             ["shaders/render.comp:LINE:COLUMN: 'nonsense' : undeclared identifier", "\n    TEXT\n"])
 shader_fault("with_syntax_error", "turner_gpu_counters counts;", "turner_gpu_counters counts",
-             ["error: shaders/render.comp:", "syntax error"])
+             ["shaders/render.comp:", "syntax error"])
 shader_fault("with_missing_include", '#include "whitted.glsl"', '#include "whited.glsl"',
-             ["shaders/render.comp:LINE: ", '"whited.glsl" is neither in shaders, nor built into '
+             ["shaders/render.comp:LINE:1: ", '"whited.glsl" is neither in shaders, nor built into '
               "the program"])
 
 

@@ -92,7 +92,7 @@ static void defines_reach_the_shader(void **state)
     assert_int_equal(reflection.push_size, 0);
     turner_reflection_destroy(&reflection);
     turner_spirv_destroy(&spirv);
-    expect_error("define.comp", "@/define.comp:3: '#error' : not defined");
+    expect_error("define.comp", "@/define.comp:3:1: '#error' : not defined");
 }
 
 static void errors_say_where(void **state)
@@ -103,28 +103,28 @@ static void errors_say_where(void **state)
                                "void main()\n{\n    unknown = 1;\n}\n");
     write_shader("inner.glsl", "\n#include \"deepest.glsl\"\n\nfloat f()\n{\n    return g;\n}\n");
     write_shader("deepest.glsl", "// fine\n");
-    expect_error("outer.comp", "@/inner.glsl:6: 'g' : undeclared identifier\n    return g;\n"
-                               "@/outer.comp:5: 'unknown' : undeclared identifier");
+    expect_error("outer.comp", "@/inner.glsl:6:12: 'g' : undeclared identifier\n    return g;\n"
+                               "@/outer.comp:5:5: 'unknown' : undeclared identifier");
 
     write_shader("inner.glsl", "float f() { return 1; }\n");
     expect_error("outer.comp",
-                 "@/outer.comp:5: 'unknown' : undeclared identifier\n    unknown = 1;");
+                 "@/outer.comp:5:5: 'unknown' : undeclared identifier\n    unknown = 1;");
 
     /* a name with what a tool might trip over */
     write_shader("odd: \xc3\xa9 #'1.glsl", "int a = b;\n");
     write_shader("odd.comp", "#version 460\n#include \"odd: \xc3\xa9 #'1.glsl\"\nvoid main() {}\n");
     expect_error("odd.comp",
-                 "@/odd: \xc3\xa9 #'1.glsl:1: 'b' : undeclared identifier\n    int a = b;");
+                 "@/odd: \xc3\xa9 #'1.glsl:1:9: 'b' : undeclared identifier\n    int a = b;");
 
     write_shader("no_main.comp", "#version 460\nvoid f() {}\n");
-    expect_error("no_main.comp", "@/no_main.comp: ");
+    expect_error("no_main.comp", "@/no_main.comp:1:1: ");
     assert_message_has("Missing entry point");
     write_shader("empty.comp", "");
-    expect_error("empty.comp", "@/empty.comp: ");
+    expect_error("empty.comp", "@/empty.comp:1:1: ");
     write_shader("c.comp", "#version 460\n\n#include <stdint.h>\nvoid main() {}\n");
-    expect_error("c.comp", "@/c.comp:3: '#include' : ");
+    expect_error("c.comp", "@/c.comp:3:1: '#include' : ");
     write_shader("line.comp", "#version 460\n#line 7 99\nint a = b;\nvoid main() {}\n");
-    expect_error("line.comp", "@/line.comp: 'b' : undeclared identifier");
+    expect_error("line.comp", "@/line.comp:1:1: 'b' : undeclared identifier");
 }
 
 static void a_missing_semicolon_is_explained(void **state)
@@ -132,12 +132,12 @@ static void a_missing_semicolon_is_explained(void **state)
     (void)state;
     write_shader("semicolon.comp", "#version 460\n#include \"open.glsl\"\n\nvoid main()\n{\n}\n");
     write_shader("open.glsl", "const float pi = 3.14\n");
-    expect_error("semicolon.comp", "@/semicolon.comp:4: syntax error, unexpected VOID, expecting "
+    expect_error("semicolon.comp", "@/semicolon.comp:4:1: syntax error, unexpected VOID, expecting "
                                    "COMMA or SEMICOLON\n    void main()\n"
                                    "    (or a ';' or '}' is missing at the end of open.glsl)");
     write_shader("open.glsl", "const float pi = 3.14;\nint x = ;\n");
     expect_error("semicolon.comp",
-                 "@/open.glsl:2: syntax error, unexpected SEMICOLON\n    int x = ;");
+                 "@/open.glsl:2:9: syntax error, unexpected SEMICOLON\n    int x = ;");
     assert_null(strstr(turner_message(), "is missing at the end"));
 }
 
@@ -149,7 +149,7 @@ static void many_errors_are_cut(void **state)
         snprintf(text + strlen(text), sizeof text - strlen(text), "    a%d = 1;\n", i);
     strcat(text, "}\n");
     write_shader("many.comp", text);
-    expect_error("many.comp", "@/many.comp:4: 'a0' : undeclared identifier\n    a0 = 1;\n");
+    expect_error("many.comp", "@/many.comp:4:5: 'a0' : undeclared identifier\n    a0 = 1;\n");
     assert_message_has(" more)");
     write_shader("long.comp", "#version 460\n"); /* a message that does not fit */
     for (size_t i = 0; i < sizeof text; i++)
@@ -157,7 +157,7 @@ static void many_errors_are_cut(void **state)
     memcpy(text, "#error ", 7);
     text[sizeof text - 1] = 0;
     write_shader("long.comp", text);
-    expect_error("long.comp", "@/long.comp:1: '#error' : xxx");
+    expect_error("long.comp", "@/long.comp:1:1: '#error' : xxx");
 }
 
 static void broken_spirv_is_found(void **state)

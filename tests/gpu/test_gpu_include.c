@@ -181,7 +181,7 @@ static void errors_say_where(void **state)
     write_shader("outer.comp", "int a;\n#include \"inner.glsl\"\n");
     write_shader("inner.glsl", "\n\n#include \"gone.glsl\"\n");
     char where[1200];
-    snprintf(where, sizeof where, "%s/inner.glsl:3: \"gone.glsl\" is neither in %s, nor built in",
+    snprintf(where, sizeof where, "%s/inner.glsl:3:1: \"gone.glsl\" is neither in %s, nor built in",
              shader_folder, shader_folder);
     expect_failure("outer.comp", where);
 
@@ -195,12 +195,12 @@ static void errors_say_where(void **state)
     static const struct {
         const char *text, *message;
     } wrong[] = {
-        {"\n#include x.glsl\n", "wrong.comp:2: write #include \"name\""},
-        {"#include\n", "wrong.comp:1: write #include \"name\""},
-        {"#include \"x.glsl\nint a;\"\n", "wrong.comp:1: write #include \"name\""},
-        {"#include \"x.glsl\" int a;\n", "wrong.comp:1: nothing may follow"},
-        {"#include \"x.glsl\" /* a\n */\n", "wrong.comp:1: #include must end on its own line"},
-        {"#include \"x.glsl\" // a \\\nb\n", "wrong.comp:1: #include must end on its own line"},
+        {"\n#include x.glsl\n", "wrong.comp:2:1: write #include \"name\""},
+        {"#include\n", "wrong.comp:1:1: write #include \"name\""},
+        {"#include \"x.glsl\nint a;\"\n", "wrong.comp:1:1: write #include \"name\""},
+        {"#include \"x.glsl\" int a;\n", "wrong.comp:1:1: nothing may follow"},
+        {"#include \"x.glsl\" /* a\n */\n", "wrong.comp:1:1: #include must end on its own line"},
+        {"#include \"x.glsl\" // a \\\nb\n", "wrong.comp:1:1: #include must end on its own line"},
         {"#include \"\"\n", "must be a name relative to the shader folders"},
         {"#include \"/etc/passwd\"\n", "must be a name relative to the shader folders"},
         {"#include \"../x.glsl\"\n", "must be a name relative to the shader folders"},
@@ -211,10 +211,10 @@ static void errors_say_where(void **state)
         {"#include \"a\\x.glsl\"\n", "must be a name relative to the shader folders"},
         {"#include \"folder\"\n", "is not a file"},
         {"#include \"zero.glsl\"\n", "holds a zero byte"},
-        {"#endif\n", "wrong.comp:1: #endif without #if"},
-        {"#ifdef A\n#if 1\n#endif\n", "wrong.comp:1: #if without #endif"},
-        {"int a; /* \n", "wrong.comp: ends inside a comment"},
-        {"int a; \\\n", "wrong.comp: ends inside a comment or a continued line"},
+        {"#endif\n", "wrong.comp:1:1: #endif without #if"},
+        {"#ifdef A\n#if 1\n#endif\n", "wrong.comp:1:1: #if without #endif"},
+        {"int a; /* \n", "wrong.comp:1:1: ends inside a comment"},
+        {"int a; \\\n", "wrong.comp:1:1: ends inside a comment or a continued line"},
     };
     write_shader("folder/x", "");
     write_shader("x.glsl", "");
@@ -248,7 +248,7 @@ static void limits(void **state)
         write_shader(name, text);
     }
     write_shader("deep40.glsl", "");
-    expect_failure("deep0.glsl", "deep31.glsl:1: more than 32 files inside each other");
+    expect_failure("deep0.glsl", "deep31.glsl:1:1: more than 32 files inside each other");
     struct turner_shader_source source;
     assert_ok(turner_shader_source_create(&source, "deep10.glsl", folders, 1));
     turner_shader_source_destroy(&source);

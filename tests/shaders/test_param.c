@@ -198,7 +198,7 @@ static void stands_in_the_shader(void **state)
     assert_int_equal(expand(&source, "//!PARAM x bool true \"\"\n//!PARAM x int 1 0 2 \"\"\n"),
                      TURNER_BAD_INPUT);
     assert_string_equal(turner_message(),
-                        "own.glsl:2: parameter \"x\" is declared before, in own.glsl:1");
+                        "own.glsl:2:1: parameter \"x\" is declared before, in own.glsl:1");
     turner_shader_source_destroy(&source);
     assert_int_equal(expand(&source, "\n//!PARAM x bool yes \"\"\n"), TURNER_BAD_INPUT);
     assert_non_null(strstr(turner_message(), "own.glsl:2:17: parameter \"x\" takes true"));

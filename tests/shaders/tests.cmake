@@ -11,4 +11,20 @@ function(turner_shader_test name script)
 endfunction()
 turner_shader_test(hooks hooks.py
     plain brdf surface background light post folders reference everything)
+turner_shader_test(check check.py templates examples errors recursion)
+set_tests_properties(shaders_check PROPERTIES LABELS "")
 turner_shader_test(params params.py values constants metadata everywhere listed)
+
+foreach(program IN ITEMS test_reload reload_seconds)
+    add_executable(${program} ${CMAKE_CURRENT_LIST_DIR}/${program}.c
+        ${CMAKE_CURRENT_LIST_DIR}/reload_bench.c)
+    target_link_libraries(${program} PRIVATE turner_flags PkgConfig::CMOCKA ${turner_libraries})
+    foreach(layer IN ITEMS base image scene reference bvh gpu render)
+        target_link_libraries(${program} PRIVATE turner_${layer})
+    endforeach()
+    target_compile_definitions(${program} PRIVATE TURNER_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    set_target_properties(${program} PROPERTIES LINKER_LANGUAGE CXX)
+endforeach()
+add_test(NAME shaders_reload COMMAND test_reload)
+set_tests_properties(shaders_reload PROPERTIES LABELS device SKIP_RETURN_CODE 77 TIMEOUT 300
+    ENVIRONMENT "MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/shaders_reload")
