@@ -20,7 +20,7 @@ static void print_help(void)
          "they part first, and which number of which ray was the first that is not finite.\n\n"
          "  -p, --pixel X,Y        0,0 is the top left one\n"
          "      --sample I         of the samples of a pixel; default is one in its centre\n"
-         "      --size WxH, --depth N, --cutoff X, --spp N   as for turner render\n"
+         "      --camera N, --size WxH, --depth N, --cutoff X, --spp N   as for turner render\n"
          "  -m, --method NAME=VALUE  a way to compute; turner params lists them (may be repeated)\n"
          "  -d, --device D         index or part of the name (turner devices), or reference: that\n"
          "                         tree alone, without Vulkan\n"
@@ -47,6 +47,7 @@ static const struct option long_options[] = {
     {"pixel", required_argument, NULL, 'p'},
     {"sample", required_argument, NULL, SAMPLE},
     {"size", required_argument, NULL, TURNER_OPTION_SIZE},
+    {"camera", required_argument, NULL, TURNER_OPTION_CAMERA},
     {"depth", required_argument, NULL, TURNER_OPTION_DEPTH},
     {"cutoff", required_argument, NULL, TURNER_OPTION_CUTOFF},
     {"spp", required_argument, NULL, TURNER_OPTION_SPP},

@@ -11,6 +11,7 @@
 #include "render/layers.h"
 #include "render/opening.h"
 #include "render/renderer.h"
+#include "scene/camera_file.h"
 
 static void print_help(void)
 {
@@ -20,6 +21,9 @@ static void print_help(void)
          "Settings come from the defaults, then the scene, then these options:\n\n"
          "  -o, --output FILE      the picture; it appears whole or not at all\n"
          "      --size WxH         pixels\n"
+         "      --camera N         one of the scene's \"cameras\"; 0, the default, is its \"camera\"\n"
+         "      --path FILE        a picture for each camera of a path (R in turner view records one):\n"
+         "                         picture-0001.png …\n"
          "      --depth N          how often light may be reflected or refracted\n"
          "      --cutoff X         rays that count less are not followed; 0 follows all\n"
          "      --spp N            samples per pixel\n"
@@ -59,19 +63,21 @@ static void print_help(void)
 }
 
 struct arguments {
-    const char *scene, *output, *stats;
+    const char *scene, *output, *stats, *path;
+    const char *what; /* is drawn: beside the progress bar */
     bool print_settings, quiet;
     double loading, start; /* seconds before main, and the clock then */
     struct turner_layers layers;
     struct turner_scene_options options;
 };
 
-enum { TILE = TURNER_OPTION_OWN, THREADS, UNSPECIALISED, NO_CACHE, STATS, PRINT_SETTINGS, AOV };
+enum { TILE = TURNER_OPTION_OWN, PATH, THREADS, UNSPECIALISED, NO_CACHE, STATS, PRINT_SETTINGS, AOV };
 
 static const struct option long_options[] = {
     {"output", required_argument, NULL, 'o'},
     {"method", required_argument, NULL, 'm'},
     {"size", required_argument, NULL, TURNER_OPTION_SIZE},
+    {"camera", required_argument, NULL, TURNER_OPTION_CAMERA},
     {"depth", required_argument, NULL, TURNER_OPTION_DEPTH},
     {"cutoff", required_argument, NULL, TURNER_OPTION_CUTOFF},
     {"spp", required_argument, NULL, TURNER_OPTION_SPP},
@@ -89,6 +95,7 @@ static const struct option long_options[] = {
     {"set", required_argument, NULL, TURNER_OPTION_SET},
     {"no-scene-shaders", no_argument, NULL, TURNER_OPTION_NO_SCENE_SHADERS},
     {"tile", required_argument, NULL, TILE},
+    {"path", required_argument, NULL, PATH},
     {"threads", required_argument, NULL, THREADS},
     {"no-cache", no_argument, NULL, NO_CACHE},
     {"unspecialised", no_argument, NULL, UNSPECIALISED},
@@ -106,6 +113,7 @@ static enum turner_result take(struct arguments *a, int option, char **argv)
     case 'q': a->quiet = true; return TURNER_OK;
     case AOV: return turner_layers_parse(&a->layers.wanted, optarg);
     case TILE: return turner_option_int(&render->tile, "--tile", optarg, 1, 4096);
+    case PATH: a->path = optarg; return TURNER_OK;
     case THREADS: return turner_option_int(&render->threads, "--threads", optarg, 1, 1024);
     case NO_CACHE: render->no_cache = true; return TURNER_OK;
     case UNSPECIALISED: render->unspecialised = true; return TURNER_OK;
@@ -149,6 +157,7 @@ static enum turner_result render(struct arguments *a, struct turner_scene *scene
     struct turner_image image = {0};
     enum turner_result result;
     turner_progress_begin(&bar, a->quiet);
+    bar.what = a->what;
     struct turner_render_options *options = &a->options.render;
     options->progress = turner_progress_show;
     options->user = &bar;
@@ -192,6 +201,39 @@ static enum turner_result print_settings(const struct arguments *a)
     return TURNER_OK;
 }
 
+/* "picture.png" → "picture-0007.png"; what ends in .16.png keeps that, too. */
+static void number_name(char *name, size_t size, const char *output, size_t number)
+{
+    const char *slash = strrchr(output, '/'), *dot = strrchr(slash ? slash : output, '.');
+    if (dot && dot - output > 3 && strncmp(dot - 3, ".16", 3) == 0)
+        dot -= 3;
+    int stem = (int)(dot ? dot - output : (long)strlen(output));
+    snprintf(name, size, "%.*s-%04zu%s", stem, output, number, dot ? dot : "");
+}
+
+static enum turner_result render_path(struct arguments *a, struct turner_scene *scene,
+                                      struct turner_statistics *statistics,
+                                      struct turner_opening *opening)
+{
+    struct turner_camera_path path;
+    const char *output = a->output;
+    char name[4096], what[64];
+    TURNER_TRY(turner_camera_path_load(&path, a->path, scene));
+    enum turner_result result = TURNER_OK;
+    for (size_t i = 0; i < path.count && result == TURNER_OK; i++) {
+        number_name(name, sizeof name, output, i + 1);
+        snprintf(what, sizeof what, "picture %zu of %zu", i + 1, path.count);
+        a->output = name;
+        a->what = what;
+        scene->camera = path.cameras[i];
+        result = render(a, scene, statistics, opening);
+    }
+    a->output = output;
+    a->what = NULL;
+    turner_camera_path_destroy(&path);
+    return result;
+}
+
 static enum turner_result load_and_render(struct arguments *a)
 {
     struct turner_scene *scene;
@@ -203,7 +245,7 @@ static enum turner_result load_and_render(struct arguments *a)
     statistics.seconds_parse = turner_seconds() - start;
     if (result == TURNER_OK) {
         turner_advise(scene, a->scene, turner_image_bits(a->output));
-        result = render(a, scene, &statistics, &opening);
+        result = (a->path ? render_path : render)(a, scene, &statistics, &opening);
         turner_scene_destroy(scene);
     }
     turner_opening_destroy(&opening);
@@ -229,6 +271,8 @@ enum turner_result turner_cmd_render(int argc, char **argv)
     turner_set_quiet(a.quiet);
     if (!a.output && !a.print_settings)
         return turner_fail(TURNER_USAGE, "say where the picture goes: -o picture.png");
+    if (a.path && a.stats)
+        return turner_fail(TURNER_USAGE, "--stats is of one picture, and --path draws many");
     if (a.output && a.layers.wanted)
         TURNER_TRY(turner_image_check_channels(a.output));
     if (a.output)

@@ -25,13 +25,17 @@ static void print_help(void)
          "  right drag              look around; with W A S D Q E held: fly\n"
          "  wheel                   nearer, farther\n"
          "  arrows, Page up, down   fly; Shift faster, Ctrl slower\n"
-         "  Home or 0               back to the scene's camera\n"
+         "  double click            look at what is there\n"
+         "  Home; 0 1 … 9           back to where it began; the scene's cameras\n"
+         "  C; Shift+C              print the camera as JSON; write it into the scene file\n"
+         "  R                       record a path of cameras, and end it: turner render --path draws it\n"
          "  S                       save the picture, once it is finished\n"
          "  Tab or P                panel\n"
          "  F1                      all keys\n"
          "  Esc or Q                quit\n\n"
          "  -o, --output FILE      what S saves: .exr .png …; default is the scene's name with .png,\n"
          "                         here; a number is added where there is such a file\n"
+         "      --camera N         begin with one of the scene's \"cameras\"\n"
          "      --size WxH         of the window, and the picture in it\n"
          "      --depth N, --cutoff X, --spp N, --error E, --shading KIND, --shadows KIND,\n"
          "      --exposure STOPS, --transfer CURVE   as for turner render\n"
@@ -64,6 +68,7 @@ static const struct option long_options[] = {
     {"output", required_argument, NULL, 'o'},
     {"method", required_argument, NULL, 'm'},
     {"size", required_argument, NULL, TURNER_OPTION_SIZE},
+    {"camera", required_argument, NULL, TURNER_OPTION_CAMERA},
     {"depth", required_argument, NULL, TURNER_OPTION_DEPTH},
     {"cutoff", required_argument, NULL, TURNER_OPTION_CUTOFF},
     {"spp", required_argument, NULL, TURNER_OPTION_SPP},
@@ -171,8 +176,11 @@ static enum turner_result load_and_view(struct arguments *a)
     turner_opening_start(&opening, a->options.render.device);
     enum turner_result result;
     TURNER_TRY_DONE(turner_scene_load(&scene, a->scene));
+    struct turner_camera first = scene->camera;
     result = turner_scene_options_apply(&a->options, scene);
     struct turner_view_options options = {
+        .first = first,
+        .camera = a->options.camera,
         .scene = scene,
         .path = a->scene,
         .opening = &opening,

@@ -60,6 +60,8 @@ enum turner_result turner_scene_option_take(struct turner_scene_options *o, int 
     switch (option) {
     case 'd': o->render.device = optarg; return TURNER_OK;
     case 'm': return take_method(o, optarg);
+    case TURNER_OPTION_CAMERA:
+        return turner_option_int(&o->camera, "--camera", optarg, 0, TURNER_MAX_CAMERAS);
     case TURNER_OPTION_SIZE:
         return turner_option_size(&o->width, &o->height, "--size", optarg);
     case TURNER_OPTION_DEPTH:
@@ -90,6 +92,8 @@ enum turner_result turner_scene_options_apply(const struct turner_scene_options 
 {
     struct turner_settings *s = &scene->settings;
     bool asked = o->spp || o->depth >= 0 || !isnan(o->cutoff);
+    if (o->camera)
+        TURNER_TRY(turner_scene_use_camera(scene, o->camera));
     for (size_t i = 0; i < o->method_count; i++)
         TURNER_TRY(turner_method_assign(s, o->methods[i]));
     if (!isnan(o->error) && asked)

@@ -13,6 +13,7 @@
 #define TURNER_PARAM_OPTIONS 256
 
 struct turner_scene_options {
+    int camera; /* number; 0: the scene's first */
     int width, height, depth, spp, shading, shadows, transfer; /* −1 (or 0): the scene's */
     double cutoff, exposure, error;                            /* NaN: the scene's */
     bool spd_rays, spd_grid;
@@ -46,6 +47,7 @@ enum turner_scene_option {
     TURNER_OPTION_TRAVERSAL,
     TURNER_OPTION_SHADER_DIR,
     TURNER_OPTION_SET,
+    TURNER_OPTION_CAMERA,
     TURNER_OPTION_NO_SCENE_SHADERS,
     TURNER_OPTION_OWN /* a command's own ones begin here */
 };

@@ -173,6 +173,10 @@ enum turner_result json_collect_names(struct json_names *names, const struct jso
 enum turner_result json_find_name(uint32_t *index, const struct json_reader *reader,
                                   const struct json_value *value, const struct json_names *names);
 
+/* On top of what `camera` holds; json_scene.c. */
+enum turner_result json_read_camera(struct turner_camera *camera, struct json_reader *reader,
+                                    const struct json_value *value);
+
 /* ---- cJSON (json_parse.c) ---- */
 
 /* The tree of a text that json_check_text has accepted (`values` from there), whatever the locale.

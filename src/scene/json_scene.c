@@ -96,9 +96,9 @@ static const struct json_key camera_keys[] = {
 };
 const struct json_table json_table_camera = JSON_TABLE("a camera", camera_keys);
 
-static enum turner_result read_camera(struct json_reader *reader, const struct json_value *value)
+enum turner_result json_read_camera(struct turner_camera *camera, struct json_reader *reader,
+                                    const struct json_value *value)
 {
-    struct turner_camera *camera = &reader->scene->camera;
     struct json_object object;
     TURNER_TRY(json_read_object(&object, camera, reader, value, &json_table_camera));
     const struct json_value *inside = json_member(&object, "inside");
@@ -120,6 +120,27 @@ static enum turner_result read_camera(struct json_reader *reader, const struct j
     for (struct json_value e = json_first(inside); e.item; e = json_next(e))
         TURNER_TRY(json_find_name(&camera->inside[e.index], reader, &e, &reader->media));
     camera->inside_count = (uint32_t)count;
+    return TURNER_OK;
+}
+
+static enum turner_result read_camera(struct json_reader *reader, const struct json_value *value)
+{
+    return json_read_camera(&reader->scene->camera, reader, value);
+}
+
+static enum turner_result read_cameras(struct json_reader *reader, const struct json_value *value)
+{
+    struct turner_scene *scene = reader->scene;
+    const struct turner_camera plain = {.up = {0, 1, 0}, .vfov = scene->camera.vfov};
+    size_t count;
+    TURNER_TRY(json_expect_list(&count, reader, value, TURNER_MAX_CAMERAS));
+    scene->cameras = turner_calloc(count, sizeof *scene->cameras);
+    for (struct json_value e = json_first(value); e.item; e = json_next(e)) {
+        struct turner_camera *camera = &scene->cameras[scene->camera_count];
+        *camera = plain;
+        TURNER_TRY(json_read_camera(camera, reader, &e));
+        scene->camera_count++;
+    }
     return TURNER_OK;
 }
 
@@ -227,6 +248,7 @@ static const struct json_key scene_keys[] = {
     JSON_KEY_ANY("params", false),
     JSON_KEY_ANY("settings", false),
     JSON_KEY_ANY("camera", true),
+    JSON_KEY_ANY("cameras", false),
     JSON_KEY("ambient", JSON_COLOR, false, offsetof(struct scene_json, ambient)),
     JSON_KEY_ANY("background", false),
     JSON_KEY_ANY("media", false),
@@ -306,7 +328,9 @@ static enum turner_result read_scene(struct json_reader *reader, const struct js
         enum turner_result (*read)(struct json_reader *reader, const struct json_value *value);
     } parts[] = {
         {"params", read_params},             {"settings", read_settings},
-        {"media", json_read_media},          {"camera", read_camera},
+        {"media", json_read_media},
+        {"cameras", read_cameras}, /* before the camera, so that they have the same defaults */
+        {"camera", read_camera},
         {"background", read_background},     {"materials", json_read_materials},
         {"meshes", json_read_meshes},        {"primitives", json_read_world},
         {"groups", json_read_groups},        {"instances", json_read_instances},

@@ -356,7 +356,7 @@ static size_t after_string(const char *text, size_t at)
     return at + 1;
 }
 
-static size_t after_value(const char *text, size_t length, size_t at)
+size_t json_end(const char *text, size_t length, size_t at)
 {
     size_t depth = 0;
     do {
@@ -391,7 +391,7 @@ size_t json_locate(const char *text, size_t length, const size_t *indices, size_
             }
             if (i == indices[level])
                 break;
-            at = after_space(text, after_value(text, length, at));
+            at = after_space(text, json_end(text, length, at));
             assert(text[at] == ',');
             at = after_space(text, at + 1);
         }

@@ -24,6 +24,9 @@ enum turner_result json_check_text(size_t *start, size_t *values, const char *te
 size_t json_locate(const char *text, size_t length, const size_t *indices, size_t count,
                    bool want_key);
 
+/* The offset behind the value at `at` of such a text. */
+size_t json_end(const char *text, size_t length, size_t at);
+
 struct json_place json_place_of(const char *text, size_t offset);
 
 #endif

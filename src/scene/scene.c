@@ -76,6 +76,7 @@ void turner_scene_destroy(struct turner_scene *scene)
         free(scene->texture_images[i].rgb);
     }
     free(scene->texture_images);
+    free(scene->cameras);
     free(scene->planes);
     for (size_t i = 0; i < scene->group_count; i++) {
         struct turner_group *group = &scene->groups[i];
@@ -160,6 +161,14 @@ static int compare_ranks(const void *left, const void *right)
     return a->declared < b->declared ? -1 : a->declared > b->declared;
 }
 
+static void rank_inside(struct turner_camera *camera, const uint32_t *rank, size_t count)
+{
+    for (uint32_t i = 0; i < camera->inside_count && i < TURNER_MEDIA_NESTING; i++) {
+        if (camera->inside[i] < count)
+            camera->inside[i] = rank[camera->inside[i]];
+    }
+}
+
 void turner_scene_sort_media(struct turner_scene *scene)
 {
     size_t count = scene->media_count;
@@ -179,12 +188,21 @@ void turner_scene_sort_media(struct turner_scene *scene)
         if (scene->materials[i].medium < count)
             scene->materials[i].medium = rank[scene->materials[i].medium];
     }
-    for (uint32_t i = 0; i < scene->camera.inside_count && i < TURNER_MEDIA_NESTING; i++) {
-        if (scene->camera.inside[i] < count)
-            scene->camera.inside[i] = rank[scene->camera.inside[i]];
-    }
+    rank_inside(&scene->camera, rank, count);
+    for (size_t i = 0; i < scene->camera_count; i++)
+        rank_inside(&scene->cameras[i], rank, count);
     free(ranked);
     free(rank);
+}
+
+enum turner_result turner_scene_use_camera(struct turner_scene *scene, int number)
+{
+    if (number < 0 || (size_t)number > scene->camera_count)
+        return turner_fail(TURNER_USAGE, "camera %d: the scene has %zu beside camera 0", number,
+                           scene->camera_count);
+    if (number > 0)
+        scene->camera = scene->cameras[number - 1];
+    return TURNER_OK;
 }
 
 void turner_sample_position(double *x, double *y, int index, int count)

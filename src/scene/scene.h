@@ -22,6 +22,7 @@
 #define TURNER_MAX_MEDIA 255
 #define TURNER_MAX_PLANES 64
 #define TURNER_MAX_LIGHTS 4096
+#define TURNER_MAX_CAMERAS 64
 #define TURNER_MAX_DEPTH 1024
 #define TURNER_MAX_BRANCH_DEPTH 64 /* where a material both reflects and transmits */
 #define TURNER_MAX_SPP 65536
@@ -212,7 +213,8 @@ struct turner_scene {
     char *path, *description; /* either may be NULL */
     char *shaders; /* folder of the scene's own, as it is to be opened; NULL: none is said */
     struct turner_settings settings;
-    struct turner_camera camera;
+    struct turner_camera camera;   /* that draws */
+    struct turner_camera *cameras; /* others to choose from; NULL without */
     struct turner_vec3 ambient; /* I_a */
     struct turner_background background;
     struct turner_medium *media;
@@ -227,7 +229,7 @@ struct turner_scene {
     uint64_t shader_hash; /* of shaders that are not turner's own; 0: there are none, or nobody has
                              looked (render/params.h) */
     size_t media_count, material_count, texture_image_count, plane_count, group_count,
-        instance_count, light_count, param_count;
+        instance_count, light_count, param_count, camera_count;
     size_t media_capacity, material_capacity, texture_image_capacity, plane_capacity,
         group_capacity, instance_capacity, light_capacity, param_capacity;
 };
@@ -240,6 +242,10 @@ struct turner_scene *turner_scene_create(void);
 void turner_scene_set_param(struct turner_scene *scene, const char *name, const char *value);
 /* "name=value" in one; TURNER_USAGE when it is not. */
 enum turner_result turner_scene_assign_param(struct turner_scene *scene, const char *assignment);
+
+/* Draws with camera `number` of the file: 0 is its "camera", 1 the first of its "cameras". Only once.
+ * TURNER_USAGE when there is none. */
+enum turner_result turner_scene_use_camera(struct turner_scene *scene, int number);
 
 /* Checks every statement above, finiteness of every number and every limit. The message names the
  * thing ("sphere 3 of group \"tree\": …") for formats that have no better place to point at. */

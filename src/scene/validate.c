@@ -124,10 +124,9 @@ enum turner_camera_state turner_camera_check(const struct turner_camera *camera)
     return turner_vec3_length(right) > 1e-8 ? TURNER_CAMERA_GOOD : TURNER_CAMERA_UP_PARALLEL;
 }
 
-static enum turner_result check_camera(const struct turner_scene *scene)
+static enum turner_result check_camera(const struct turner_scene *scene,
+                                       const struct turner_camera *c, const struct subject *subject)
 {
-    const struct turner_camera *c = &scene->camera;
-    const struct subject *subject = &camera_subject;
     CHECK(subject, usable3(c->from) && usable3(c->at) && usable3(c->up),
           "from, at or up is not finite");
     enum turner_camera_state state = turner_camera_check(c);
@@ -381,7 +380,11 @@ enum turner_result turner_scene_validate(const struct turner_scene *scene)
 {
     const struct subject ambient = {"ambient", SIZE_MAX, NULL, NULL};
     TURNER_TRY(check_settings(&scene->settings));
-    TURNER_TRY(check_camera(scene));
+    TURNER_TRY(check_camera(scene, &scene->camera, &camera_subject));
+    for (size_t i = 0; i < scene->camera_count; i++) {
+        struct subject subject = {"camera", i + 1, NULL, NULL};
+        TURNER_TRY(check_camera(scene, &scene->cameras[i], &subject));
+    }
     CHECK(&ambient, turner_color_usable(scene->ambient), "it is negative or not finite");
     TURNER_TRY(check_background(scene));
     TURNER_TRY(check_media(scene));

@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -11,6 +10,8 @@
 #include "view/session.h"
 
 #define PI 3.14159265358979323846
+#define CLICK_SECONDS 0.4 /* between two of a double click, */
+#define CLICK_PIXELS 4    /* and how far apart they may be */
 #define NOTCH 0.9       /* of the distance, that a notch of the wheel leaves */
 #define FLIGHT 0.5      /* of the distance, in a second */
 #define FASTER 4.0
@@ -26,8 +27,16 @@ static void touched(struct turner_session *session)
 
 static void press(struct turner_session *session, const struct turner_window_event *event)
 {
+    double now = turner_seconds();
+    bool near = fabs(event->x - session->x) < CLICK_PIXELS &&
+                fabs(event->y - session->y) < CLICK_PIXELS;
     session->x = event->x;
     session->y = event->y;
+    if (event->button == GLFW_MOUSE_BUTTON_LEFT && !(event->mods & GLFW_MOD_CONTROL)) {
+        if (near && now - session->click < CLICK_SECONDS)
+            turner_painter_pick(&session->painter, event->x, event->y);
+        session->click = now;
+    }
     if (event->button == GLFW_MOUSE_BUTTON_LEFT)
         session->drag = event->mods & GLFW_MOD_SHIFT ? TURNER_DRAG_PAN : TURNER_DRAG_ORBIT;
     else if (event->button == GLFW_MOUSE_BUTTON_MIDDLE)
@@ -104,16 +113,17 @@ static void hold(struct turner_session *session, int key, int mods, bool down)
         session->clock = turner_seconds();
 }
 
-/* The name for what S saves: that of the options, or the first like it that is free. */
-static void name_shot(const struct turner_session *session, char name[1024])
+static void choose_camera(struct turner_session *session, int number)
 {
-    const char *output = session->options->output, *dot = strrchr(output, '.');
-    if (dot && dot - output > 3 && strncmp(dot - 3, ".16", 3) == 0)
-        dot -= 3;
-    int stem = (int)(dot ? dot - output : (long)strlen(output));
-    snprintf(name, 1024, "%s", output);
-    for (int i = 2; access(name, F_OK) == 0 && i < 10000; i++)
-        snprintf(name, 1024, "%.*s-%d%s", stem, output, i, dot ? dot : "");
+    const struct turner_scene *scene = session->options->scene;
+    if ((size_t)number > scene->camera_count) {
+        turner_session_say(session, "the scene has no camera %d; \"cameras\" in its file lists more",
+                           number);
+        return;
+    }
+    session->camera = number;
+    session->wish.camera = number ? scene->cameras[number - 1] : session->options->first;
+    session->changed = true;
 }
 
 static void key(struct turner_session *session, const struct turner_window_event *event)
@@ -129,16 +139,23 @@ static void key(struct turner_session *session, const struct turner_window_event
     case GLFW_KEY_TAB:
     case GLFW_KEY_P: session->panel = !session->panel; break;
     case GLFW_KEY_HOME:
-    case GLFW_KEY_0:
         session->wish.camera = session->home;
+        session->camera = session->options->camera;
         session->changed = true;
         break;
+    case GLFW_KEY_C:
+        (event->mods & GLFW_MOD_SHIFT ? turner_session_store_camera
+                                      : turner_session_print_camera)(session);
+        break;
+    case GLFW_KEY_R: turner_session_record(session); break;
     case GLFW_KEY_S:
-        name_shot(session, name);
+        turner_session_name(name, session->options->output, NULL);
         turner_painter_shoot(&session->painter, name);
         turner_session_say(session, "%s as soon as the picture is finished", name);
         break;
     }
+    if (event->key >= GLFW_KEY_0 && event->key <= GLFW_KEY_9)
+        choose_camera(session, event->key - GLFW_KEY_0);
     session->dirty = true;
 }
 

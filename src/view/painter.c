@@ -55,6 +55,27 @@ void turner_painter_shoot(struct turner_painter *painter, const char *path)
     pthread_mutex_unlock(&painter->mutex);
 }
 
+void turner_painter_pick(struct turner_painter *painter, double x, double y)
+{
+    pthread_mutex_lock(&painter->mutex);
+    painter->pick = true;
+    painter->pick_x = x;
+    painter->pick_y = y;
+    pthread_cond_signal(&painter->changed);
+    pthread_mutex_unlock(&painter->mutex);
+}
+
+bool turner_painter_picked(struct turner_painter *painter, struct turner_vec3 *point, bool *met)
+{
+    pthread_mutex_lock(&painter->mutex);
+    bool fresh = painter->fresh_picked;
+    painter->fresh_picked = false;
+    *point = painter->picked;
+    *met = painter->met;
+    pthread_mutex_unlock(&painter->mutex);
+    return fresh;
+}
+
 bool turner_painter_reply(struct turner_painter *painter, char reply[1024])
 {
     pthread_mutex_lock(&painter->mutex);
@@ -105,7 +126,28 @@ static void write_shot(struct turner_painter *painter)
     say(painter, text);
 }
 
-/* Until there is a wish, a picture to write when `done`, or `seconds` have gone by (< 0: for ever).
+static enum turner_result answer_pick(struct turner_painter *painter)
+{
+    struct turner_vec3 point;
+    bool met, asked;
+    pthread_mutex_lock(&painter->mutex);
+    asked = painter->pick;
+    painter->pick = false;
+    double x = painter->pick_x, y = painter->pick_y;
+    pthread_mutex_unlock(&painter->mutex);
+    if (!asked)
+        return TURNER_OK;
+    TURNER_TRY(turner_painter_meet(painter, x, y, &point, &met));
+    pthread_mutex_lock(&painter->mutex);
+    painter->picked = point;
+    painter->met = met;
+    painter->fresh_picked = true;
+    pthread_mutex_unlock(&painter->mutex);
+    painter->options.wake(painter->options.user);
+    return TURNER_OK;
+}
+
+/* Until there is a wish, a question, a picture to write when `done`, or `seconds` have gone by (< 0: for ever).
  * Takes the wish. False: the end. */
 static bool wait_for(struct turner_painter *painter, struct turner_wish *wish, bool *fresh,
                      bool done, double seconds)
@@ -117,7 +159,8 @@ static bool wait_for(struct turner_painter *painter, struct turner_wish *wish, b
     until.tv_nsec = nanoseconds % 1000000000;
     pthread_mutex_lock(&painter->mutex);
     int over = 0;
-    while (!painter->quit && !painter->fresh_wish && !(done && painter->shot) && over == 0) {
+    while (!painter->quit && !painter->fresh_wish && !painter->pick &&
+           !(done && painter->shot) && over == 0) {
         if (seconds < 0)
             pthread_cond_wait(&painter->changed, &painter->mutex);
         else
@@ -158,6 +201,7 @@ static enum turner_result work(struct turner_painter *painter)
             stage = turner_painter_first(painter, &wish);
             waited = false;
         }
+        TURNER_TRY(answer_pick(painter));
         if (stage == TURNER_STAGE_DONE) {
             write_shot(painter);
             continue;

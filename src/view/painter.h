@@ -60,6 +60,9 @@ struct turner_painter {
     bool quit, fresh_wish, fresh_sight;
     struct turner_wish wish;
     struct turner_sight sight;      /* the newest, to be taken */
+    bool pick, fresh_picked, met;   /* what lies at a place is asked for; the answer is there */
+    double pick_x, pick_y;
+    struct turner_vec3 picked;
     char *shot;                     /* NULL, or where the full picture is to be written */
     char reply[1024], failure[2048]; /* for people: what became of it; why nothing can be drawn */
     bool fresh_reply;
@@ -100,6 +103,11 @@ void turner_sight_destroy(struct turner_sight *sight);
 /* Has the picture of the wish written as soon as it is full. */
 void turner_painter_shoot(struct turner_painter *painter, const char *path);
 
+/* Asks for the point that is seen at (x, y) of the picture of the wish, in pixels. */
+void turner_painter_pick(struct turner_painter *painter, double x, double y);
+/* The answer, once: false as long as there is none. `met`: there is something. */
+bool turner_painter_picked(struct turner_painter *painter, struct turner_vec3 *point, bool *met);
+
 /* What the painter has to say, once: what became of a picture that was to be written. */
 bool turner_painter_reply(struct turner_painter *painter, char reply[1024]);
 
@@ -118,5 +126,8 @@ enum turner_stage turner_painter_next(const struct turner_wish *wish, enum turne
 enum turner_result turner_painter_prepare(struct turner_painter *painter,
                                           const struct turner_wish *wish);
 void turner_painter_clear(struct turner_painter *painter);
+/* pick.c, in the thread: what the ray through (x, y) meets. */
+enum turner_result turner_painter_meet(struct turner_painter *painter, double x, double y,
+                                       struct turner_vec3 *point, bool *met);
 
 #endif

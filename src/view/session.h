@@ -3,6 +3,7 @@
 #define TURNER_VIEW_SESSION_H
 
 #include "view/load.h"
+#include "scene/camera_file.h"
 #include "view/view.h"
 
 enum turner_drag { TURNER_DRAG_NONE, TURNER_DRAG_ORBIT, TURNER_DRAG_PAN, TURNER_DRAG_TURN };
@@ -15,7 +16,8 @@ struct turner_session {
     struct turner_view_report *report;
 
     struct turner_wish wish;    /* as last told to the painter, or about to be */
-    struct turner_camera home;  /* the scene's */
+    struct turner_camera home;  /* it began with */
+    int camera;                 /* the number of the scene's that was chosen last */
     struct turner_sight sight;  /* that the window shows */
     bool changed, moving;       /* the wish; it does so by hand or by itself */
     bool dirty;                 /* the window is to be shown anew */
@@ -26,6 +28,9 @@ struct turner_session {
     double x, y;                /* of the pointer, last */
     bool flying[6];             /* keys held down: right left up down forward back */
     bool fast, slow;
+    struct turner_camera_path recorded; /* as it is recorded; rate 0: it is not */
+    double record_next;         /* when the next camera is due */
+    double click;               /* when the last was, at x and y */
     double clock;               /* when the camera was last moved by keys or by itself */
 
     bool keys, panel;           /* boxes that are open */
@@ -43,6 +48,15 @@ void turner_session_say(struct turner_session *session, const char *format, ...)
 void turner_session_event(struct turner_session *session, const struct turner_window_event *event);
 /* Moves the camera by what is held down, or by itself; true as long as it does. */
 bool turner_session_animate(struct turner_session *session);
+
+/* record.c: cameras on paper. */
+void turner_session_print_camera(struct turner_session *session);
+void turner_session_store_camera(struct turner_session *session);
+void turner_session_record(struct turner_session *session); /* begins, or ends and writes */
+void turner_session_record_frame(struct turner_session *session); /* in every turn of the loop */
+
+/* `output`, or the first name like it, with a number, that is free. */
+void turner_session_name(char name[1024], const char *output, const char *ending);
 
 /* boxes.c: everything over the picture. */
 void turner_session_boxes(struct turner_session *session);

@@ -180,7 +180,7 @@ static bool progress(double share, void *user)
     struct drawing *drawing = user;
     struct turner_painter *painter = drawing->painter;
     pthread_mutex_lock(&painter->mutex);
-    bool quit = painter->quit, go_on = !quit && !painter->fresh_wish;
+    bool quit = painter->quit, go_on = !quit && !painter->fresh_wish && !painter->pick;
     pthread_mutex_unlock(&painter->mutex);
     if (drawing->stage == TURNER_STAGE_QUICK)
         return !quit; /* soon finished: a frame that is given up is one that is missed */

@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "image/image.h"
 #include "render/shader_path.h"
+#include "view/camera.h"
 #include "view/session.h"
 
 #define ANIMATE_SECONDS 0.008
@@ -155,6 +156,8 @@ static double idle_seconds(const struct turner_session *session, bool animated)
     const struct turner_view_options *options = session->options;
     if (animated)
         seconds = ANIMATE_SECONDS;
+    if (session->recorded.rate > 0)
+        seconds = fmin(seconds, BUSY_SECONDS);
     if (session->settle || session->dirty)
         seconds = 0;
     if (session->toast_end > 0)
@@ -178,6 +181,21 @@ static bool time_is_up(const struct turner_session *session)
     return options->seconds > 0 && turner_seconds() - options->start >= options->seconds;
 }
 
+/* What the double click was on. */
+static void take_pick(struct turner_session *session)
+{
+    struct turner_vec3 point;
+    bool met;
+    if (!turner_painter_picked(&session->painter, &point, &met))
+        return;
+    if (met && turner_camera_look_at(&session->wish.camera, point)) {
+        turner_camera_round(&session->wish.camera);
+        session->changed = session->moving = true;
+    } else {
+        turner_session_say(session, met ? "it cannot be looked at" : "there is nothing");
+    }
+}
+
 static enum turner_result loop(struct turner_session *session)
 {
     const struct turner_window_functions *functions = session->functions;
@@ -192,10 +210,12 @@ static enum turner_result loop(struct turner_session *session)
         if (turner_signals_caught())
             return turner_fail(TURNER_INTERRUPTED, "%s", "");
         animated = turner_session_animate(session);
+        turner_session_record_frame(session);
         follow_size(session);
         send_wish(session);
         bool fresh = turner_painter_take(&session->painter, &session->sight);
         TURNER_TRY(turner_painter_result(&session->painter));
+        take_pick(session);
         if (turner_painter_reply(&session->painter, reply))
             turner_session_say(session, "%s", reply);
         end_toast(session);
@@ -261,6 +281,7 @@ enum turner_result turner_view(const struct turner_view_options *options,
         .report = report,
         .wish = {options->scene->camera, options->scene->settings, false},
         .home = options->scene->camera,
+        .camera = options->camera,
         .clock = turner_seconds(),
     };
     struct doorbell bell = {.mutex = PTHREAD_MUTEX_INITIALIZER};
@@ -291,6 +312,7 @@ done:
     if (session.window)
         session.functions->close(session.window);
     turner_sight_destroy(&session.sight);
+    turner_camera_path_destroy(&session.recorded);
     turner_shader_path_destroy(&path);
     return result;
 }

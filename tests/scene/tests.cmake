@@ -1,5 +1,5 @@
 # Scenes: the data model, the JSON reader and its schema, loading.
-foreach(name scene_model scene_validate scene_json scene_json_errors scene_load scene_methods)
+foreach(name scene_model scene_camera scene_validate scene_json scene_json_errors scene_load scene_methods)
     turner_unit_test(${name} ${CMAKE_CURRENT_LIST_DIR}/test_${name}.c LAYERS base image scene)
 endforeach()
 

@@ -4,9 +4,11 @@ What the display shows is read from Xvfb's frame buffer, a file in the format of
 """
 
 import ctypes
+import json
 import mmap
 import os
 import pathlib
+import select
 import shutil
 import signal
 import struct
@@ -145,6 +147,29 @@ class View:
         x11.XSendEvent(display, window, 0, ctypes.c_long(0), ctypes.byref(message))
         x11.XCloseDisplay(display)
 
+    def line(self):
+        """The next line it prints."""
+        ready, _, _ = select.select([self.process.stdout], [], [], PATIENCE)
+        assert ready, "nothing was printed"
+        return self.process.stdout.readline()
+
+    def camera(self):
+        """What C prints."""
+        self.key("c")
+        return json.loads(self.line())
+
+    def drag(self, button, x, y, dx, dy, *held):
+        """In steps, as a hand does; `held` are keys."""
+        self.xdo("mousemove", x, y)
+        if held:
+            self.xdo("keydown", *held)
+        self.xdo("mousedown", button)
+        for step in (0.3, 0.7, 1):
+            self.xdo("mousemove", x + round(step * dx), y + round(step * dy))
+        self.xdo("mouseup", button)
+        if held:
+            self.xdo("keyup", *held)
+
     def cpu(self):
         """Ticks of processor time so far."""
         fields = pathlib.Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1]
@@ -180,7 +205,7 @@ def render(scene, output, *arguments):
     done = subprocess.run([TURNER, "render", scene, "-q", "-o", output, *map(str, arguments)],
                           capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr
-    return pathlib.Path(output).read_bytes()
+    return pathlib.Path(output).read_bytes() if "--path" not in arguments else None
 
 
 def ppm_pixels(data):

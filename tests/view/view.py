@@ -3,6 +3,8 @@
 Environment: TURNER, the command. Exit status 77, and why, where it cannot be tried.
 """
 
+import json
+import math
 import os
 import pathlib
 import signal
@@ -122,6 +124,126 @@ def resize(screen):
     view.wait_for_picture(*wanted)
     view.xdo("windowfocus", "--sync", view.window)
     view.quit()
+
+
+def near(a, b, tolerance=2e-5):
+    return all(abs(x - y) <= tolerance for x, y in zip(a, b, strict=True))
+
+
+def minus(a, b):
+    return [x - y for x, y in zip(a, b)]
+
+
+def length(v):
+    return math.sqrt(sum(x * x for x in v))
+
+
+def about_y(v, angle):
+    """Turned, from above against the clock."""
+    x, y, z = v
+    c, s = math.cos(angle), math.sin(angle)
+    return [c * x + s * z, y, c * z - s * x]
+
+
+@test
+def camera(screen):
+    """Mouse and keys move the camera as docs/view.md says."""
+    view = opened(screen)
+    start = {"from": [0, 1, 5], "at": [0, 0.5, 0], "up": [0, 1, 0], "vfov": 40}
+    assert view.camera() == start, "the scene's camera"
+    back = minus(start["from"], start["at"])
+
+    view.drag(1, 100, 60, -40, 0)  # a quarter of the window is an eighth around
+    now = view.camera()
+    assert now["at"] == start["at"] and now["vfov"] == 40, "orbit"
+    assert near(minus(now["from"], now["at"]), about_y(back, math.pi / 4)), f"orbit: {now}"
+    view.key("Home")
+    assert view.camera() == start, "Home"
+
+    view.drag(1, 80, 30, 0, 30)  # down: over the top, by a quarter of half around
+    now = minus(view.camera()["from"], start["at"])
+    angle = math.atan2(back[1], back[2]) + math.pi / 4
+    assert near(now, [0, length(back) * math.sin(angle), length(back) * math.cos(angle)]), "raise"
+    view.key("Home")
+
+    view.xdo("click", 4)
+    now = minus(view.camera()["from"], start["at"])
+    assert near(now, [0.9 * x for x in back]), "the wheel"
+    view.key("Home")
+
+    for button, held in ((2, ()), (1, ("shift",))):
+        view.drag(button, 60, 60, 30, 0, *held)
+        pixel = 2 * math.tan(math.radians(20)) * length(back) / SIZE[1]
+        now = view.camera()
+        assert near(now["from"], [-30 * pixel, 1, 5]), f"pan: {now}"
+        assert near(now["at"], [-30 * pixel, 0.5, 0]), f"pan: {now}"
+        view.key("Home")
+
+    view.drag(3, 60, 60, 30, 0)
+    now = view.camera()
+    turned = about_y(minus(start["at"], start["from"]), math.radians(40) * 30 / SIZE[1])
+    assert now["from"] == start["from"] and near(minus(now["at"], now["from"]), turned), "turn"
+    view.key("Home")
+
+    forward = [-x / length(back) for x in back]
+    for key, way in (("Up", forward), ("Left", [-1, 0, 0])):
+        view.xdo("keydown", key)
+        time.sleep(0.2)
+        view.xdo("keyup", key)
+        now = view.camera()
+        step = minus(now["from"], start["from"])
+        assert length(step) > 0.01 and near(minus(now["at"], start["at"]), step), f"fly: {now}"
+        assert near([x / length(step) for x in step], way, 1e-3), f"fly: {now}"
+        view.key("Home")
+
+    view.xdo("mousemove", 50, 60, "click", "--repeat", 2, "--delay", 60, 1)  # the mirror
+    at = wait_until("nothing was looked at", lambda: differs(view, "at", start["at"]))
+    assert abs(length(minus(at, [-0.8, 0.4, 0])) - 0.7) < 1e-4, f"not on the sphere: {at}"
+    view.quit()
+
+
+def differs(view, key, value):
+    now = view.camera()[key]
+    return now if now != value else None
+
+
+@test
+def cameras(screen):
+    """Cameras of the scene, one written into its file, a path recorded and drawn."""
+    text = SCENE.replace('"background"', """"cameras": [{"at": [0,0.5,0],   "from": [5,1,0.50]},
+   {"from": [0, 3, 0.5], "at": [0, 0, 0], "vfov": 70}], "background\"""", 1)
+    pathlib.Path("scene.json").write_text(text)
+    wanted = [ppm_pixels(render("scene.json", "wanted.ppm", "--camera", number))
+              for number in range(3)]
+    view = View(screen, "scene.json", "-q", "-o", "out.ppm", "--camera", "2").find()
+    for key, number in (("", 2), ("0", 0), ("1", 1), ("2", 2), ("Home", 2), ("1", 1)):
+        if key:
+            view.key(key)
+        view.wait_for_picture(*wanted[number])
+    view.key("r")
+    view.drag(1, 60, 60, 20, 0)
+    view.key("r")
+    moved = view.camera()
+    view.key("shift+c")
+    changed = text.replace("[5,1,0.50]", json.dumps(moved["from"]))
+    wait_until("nothing was written",
+               lambda: pathlib.Path("scene.json").read_text() == changed)
+    view.quit()
+
+    path = json.loads(pathlib.Path("out-path.json").read_text())
+    frames = len(path["cameras"])
+    assert path["rate"] == 30 and frames >= 2, "a path"
+    assert path["cameras"][0]["from"] == [5, 1, 0.5] and path["cameras"][-1] == moved, "its ends"
+    path["cameras"] = [path["cameras"][0], path["cameras"][-1]]
+    pathlib.Path("path.json").write_text(json.dumps(path))
+    pathlib.Path("scene.json").write_text(text)
+    first = render("scene.json", "first.png", "--camera", "1")
+    render("scene.json", "film.png", "--path", "path.json")
+    assert pathlib.Path("film-0001.png").read_bytes() == first, "the first picture of the path"
+    pathlib.Path("scene.json").write_text(changed)
+    last = render("scene.json", "last.png", "--camera", "1")
+    assert pathlib.Path("film-0002.png").read_bytes() == last, "the last picture of the path"
+    assert not pathlib.Path("film-0003.png").exists(), "no more than that"
 
 
 def main():
