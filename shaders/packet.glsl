@@ -62,16 +62,21 @@ void make_room(inout walk_t walk)
     walk.height -= LANES;
 }
 
-// A packet of rays from one point whose directions have the same signs, as the camera's have, taken
-// as one: it meets what any of them meets, and perhaps more, for less than half of the work. (Rays
-// from several points would make it meet far more.) Lane 2a has what gives the entry along axis a,
-// lane 2a + 1 what gives the exit: the coordinate that rays start from and the reciprocals of their
-// directions that are farthest from each other. Lanes 6 and 7 enter and leave at all times.
+// A packet of rays whose directions have the same signs, taken as one: it meets what any of them
+// meets, and perhaps more, for less than half of the work. They start at one point, as the camera's
+// do, or end at one and are followed backward from there, as shadow rays from a light that is near
+// enough for them to stay together; others would meet far more. Lane 2a has what gives the entry along
+// axis a, lane 2a + 1 what gives the exit: the coordinate that rays start from and the reciprocals of
+// their directions that are farthest from each other. Lanes 6 and 7 enter and leave at all times.
 struct beam_t {
     bool possible;
+    int reach;  // of rays followed backward: how far, in bits; of others 0
     uint faces; // where each lane finds its own in a node: entries may be behind
     float start, least, most;
 };
+
+// Of rays that are followed backward: how far apart they may be, as a share of their length.
+const float APART = 0.01;
 
 float least_of_lanes(float v)
 {
@@ -85,27 +90,70 @@ vec3 least_of_lanes(vec3 v)
     return vec3(least_of_lanes(v.x), least_of_lanes(v.y), least_of_lanes(v.z));
 }
 
-beam_t beam_of(boxes_ray_t ray, bool alive)
+// Bounds of what the lanes have that are alive.
+struct bounds_t {
+    vec3 lo, hi;
+};
+
+bounds_t bounds_of_lanes(vec3 lo, vec3 hi, bool alive)
 {
-    const float far = 3e38;
+    const vec3 far = vec3(3e38);
+    return bounds_t(least_of_lanes(alive ? lo : far), -least_of_lanes(alive ? -hi : far));
+}
+
+float size_of(bounds_t b)
+{
+    return largest(b.hi - b.lo);
+}
+
+// Where rays that end within t_max come from, seen from their ends; empty bounds where they are too
+// far apart.
+bounds_t ends_of_lanes(boxes_ray_t ray, vec3 direction, float t_max, bool alive)
+{
+    vec3 end = 0.5 * (ray.above + ray.below) + t_max * direction;
+    bounds_t starts = bounds_of_lanes(ray.below, ray.above, alive);
+    bounds_t ends = bounds_of_lanes(end, end, alive);
+    float length = least_of_lanes(alive ? t_max * largest(abs(direction)) : 3e38);
+    float pad = 2e-6 * max(max(largest(abs(starts.lo)), largest(abs(starts.hi))),
+                           max(largest(abs(ends.lo)), largest(abs(ends.hi)))); // for rounding
+    if (size_of(starts) + size_of(ends) > APART * length)
+        return bounds_t(vec3(1.0), vec3(-1.0));
+    return bounds_t(ends.lo - pad, ends.hi + pad);
+}
+
+beam_t beam_of(boxes_ray_t ray, vec3 direction, float t_max, bool alive)
+{
     beam_t beam;
-    vec3 start = vec3(subgroupBroadcast(ray.above.x, 0u), subgroupBroadcast(ray.above.y, 0u),
-                      subgroupBroadcast(ray.above.z, 0u));
-    beam.possible = !goes_on(alive && (ray.above != start || ray.below != start));
+    uvec3 negative = floatBitsToUint(ray.inverse) >> 31;
+    int signs = int(negative.x | negative.y << 1 | negative.z << 2);
+    int all = least_of_lanes(alive ? signs : 7);
+    beam.possible = all == ~least_of_lanes(alive ? ~signs : ~0);
     if (beam.possible) {
-        uvec3 negative = floatBitsToUint(ray.inverse) >> 31;
-        int signs = int(negative.x | negative.y << 1 | negative.z << 2);
-        int all = least_of_lanes(alive ? signs : 7);
-        beam.possible = all == ~least_of_lanes(alive ? ~signs : ~0);
-        vec3 least = least_of_lanes(alive ? ray.inverse : vec3(far));
-        vec3 most = -least_of_lanes(alive ? -ray.inverse : vec3(far));
+        bounds_t from = bounds_t(vec3(subgroupBroadcast(ray.below.x, 0u),
+                                      subgroupBroadcast(ray.below.y, 0u),
+                                      subgroupBroadcast(ray.below.z, 0u)),
+                                 vec3(subgroupBroadcast(ray.above.x, 0u),
+                                      subgroupBroadcast(ray.above.y, 0u),
+                                      subgroupBroadcast(ray.above.z, 0u)));
+        vec3 inverse = ray.inverse;
+        beam.reach = 0;
+        if (goes_on(alive && (ray.below != from.lo || ray.above != from.hi))) {
+            float reach = -least_of_lanes(alive ? -t_max : 0.0);
+            if (reach < 1e30)
+                from = ends_of_lanes(ray, direction, t_max, alive);
+            beam.possible = reach < 1e30 && from.lo.x <= from.hi.x;
+            beam.reach = floatBitsToInt(reach * 1.000002);
+            inverse = -inverse;
+            all = ~all;
+        }
+        bounds_t spread = bounds_of_lanes(inverse, inverse, alive);
         uint axis = min(lane() >> 1, 2u);
         bool leaving = (lane() & 1u) != 0u, turned = ((uint(all) >> axis) & 1u) != 0u;
         float pad = leaving ? 1.000001 : 1.0; // that of enter_box(), and its rounding
         beam.faces = lane() ^ uint(turned && lane() < 6u);
-        beam.start = lane() < 6u ? start[axis] : 0.0;
-        beam.least = lane() < 6u ? least[axis] * pad : leaving ? far : 0.0;
-        beam.most = lane() < 6u ? most[axis] * pad : leaving ? far : 0.0;
+        beam.start = lane() >= 6u ? 0.0 : leaving != turned ? from.lo[axis] : from.hi[axis];
+        beam.least = lane() < 6u ? spread.lo[axis] * pad : leaving ? 3e38 : 0.0;
+        beam.most = lane() < 6u ? spread.hi[axis] * pad : leaving ? 3e38 : 0.0;
     }
     return beam;
 }
@@ -213,16 +261,26 @@ void walk_nodes(inout walk_t walk, boxes_ray_t ray, int t_max, bool by_beam, bea
                 make_room(walk); // for four
         }
         visit(walk, ray, t_max, by_beam, beam);
-    } while (is_node(walk.next) && ++walk.visits < scene.max_visits);
+        walk.visits++;
+    } while (is_node(walk.next) && walk.visits < scene.max_visits);
 }
 
-// Takes what waits on top, after a leaf; the end, if all lanes are blocked.
-void take(inout walk_t walk, int t_max)
+// What a lane still looks for lies nearer than this.
+int t_max_of(search_t search)
+{
+    return search.blocked ? floatBitsToInt(-1.0) : bits_of(search.hit.t);
+}
+
+// Takes what waits on top, after a leaf; the end, if all lanes are blocked. That is asked only where
+// one is, so that the next node need not wait for what the leaf holds.
+void take(inout walk_t walk, search_t search)
 {
     if (walk.height == 0u)
         take_back(walk);
-    walk.next = goes_on(t_max >= 0) ? top_of(walk) : 0u;
+    walk.next = top_of(walk);
     walk.height--;
+    if (goes_on(search.blocked))
+        walk.next = goes_on(t_max_of(search) >= 0) ? walk.next : 0u;
 }
 
 // The primitive, read by six lanes for all.
@@ -248,23 +306,18 @@ turner_gpu_primitive primitive_of_lanes(uint index)
                                 uintBitsToFloat(uvec3(w[6], w[7], w[8])), w[9], w[10], w[11]);
 }
 
-// What a lane still looks for lies nearer than this.
-int t_max_of(search_t search)
-{
-    return search.blocked ? floatBitsToInt(-1.0) : bits_of(search.hit.t);
-}
-
 void walk_group(inout search_t search, uint root, uint instance, uint override_material,
                 real3 origin, real3 direction)
 {
     boxes_ray_t boxes = boxes_ray_of(origin, direction);
     shear_t shear = shear_of(direction);
     int t_max = t_max_of(search);
-    beam_t beam = beam_of(boxes, t_max >= 0);
+    beam_t beam = beam_of(boxes, vec3(direction), float(search.hit.t), t_max >= 0);
     walk_t walk = walk_from(root, 0u);
     do {
         if (beam.possible)
-            walk_nodes(walk, boxes, ~least_of_lanes(~t_max), true, beam);
+            walk_nodes(walk, boxes, beam.reach != 0 ? beam.reach : ~least_of_lanes(~t_max), true,
+                       beam);
         else
             walk_nodes(walk, boxes, t_max, false, beam);
         do {
@@ -279,7 +332,7 @@ void walk_group(inout search_t search, uint root, uint instance, uint override_m
             }
             t_max = t_max_of(search);
             if (walk.next != 0u)
-                take(walk, t_max);
+                take(walk, search);
         } while (is_leaf(walk.next));
     } while (walk.next != 0u && ++walk.visits < scene.max_visits);
 }
@@ -291,7 +344,7 @@ void traverse(inout search_t search, ray_t ray)
         walk_group(search, instances.at[0].root, 0u, TURNER_NO_INDEX, ray.origin, ray.direction);
         return;
     }
-    const beam_t none = beam_t(false, 0u, 0.0, 0.0, 0.0);
+    const beam_t none = beam_t(false, 0, 0u, 0.0, 0.0, 0.0);
     boxes_ray_t boxes = boxes_ray_of(ray.origin, ray.direction);
     int t_max = t_max_of(search);
     walk_t walk = walk_from(scene.root, ASIDE);
@@ -308,7 +361,7 @@ void traverse(inout search_t search, ray_t ray)
             }
             t_max = t_max_of(search);
             if (walk.next != 0u)
-                take(walk, t_max);
+                take(walk, search);
         } while (is_leaf(walk.next));
     } while (walk.next != 0u && ++walk.visits < scene.max_visits);
 }

@@ -32,6 +32,13 @@ void consider(inout search_t search, real t, uint id, uint primitive, uint insta
         search.blocked = true;
 }
 
+// Whether a primitive is of this kind; where the scene has no others it is not asked.
+bool may_be(uint need, uint kind, uint actual)
+{
+    const uint shapes = TURNER_NEEDS_SPHERES | TURNER_NEEDS_CONES | TURNER_NEEDS_TRIANGLES;
+    return NEEDS_ANY(need) && (!NEEDS_ANY(shapes & ~need) || actual == kind);
+}
+
 // Intersects one primitive of a group; `origin` and `direction` are in the group's coordinates.
 void intersect_primitive(inout search_t search, turner_gpu_primitive p, uint index, uint instance,
                          uint override_material, real3 origin, real3 direction, shear_t shear)
@@ -40,12 +47,12 @@ void intersect_primitive(inout search_t search, turner_gpu_primitive p, uint ind
     shape_t s = shape_of(p, index);
     real t = INFINITY;
     real2 coordinates = real2(0.0);
-    if (NEEDS_ANY(TURNER_NEEDS_SPHERES) && kind == TURNER_KIND_SPHERE)
+    if (may_be(TURNER_NEEDS_SPHERES, TURNER_KIND_SPHERE, kind))
         t = intersect_sphere(origin, direction, s.a, s.b.x);
-    if (NEEDS_ANY(TURNER_NEEDS_CONES) && kind == TURNER_KIND_CONE)
+    if (may_be(TURNER_NEEDS_CONES, TURNER_KIND_CONE, kind))
         t = intersect_cone(origin, direction, s.a, s.b, s.c.x, s.c.y, p.c.z != 0.0,
                            coordinates.x);
-    if (NEEDS_ANY(TURNER_NEEDS_TRIANGLES) && kind == TURNER_KIND_TRIANGLE)
+    if (may_be(TURNER_NEEDS_TRIANGLES, TURNER_KIND_TRIANGLE, kind))
         t = intersect_triangle(origin, direction, shear, s.a, s.b, s.c, coordinates);
     uint material = NEEDS_ANY(TURNER_NEEDS_INSTANCES) && override_material != TURNER_NO_INDEX
                         ? override_material : p.material;

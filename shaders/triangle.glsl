@@ -57,6 +57,17 @@ real intersect_moller_trumbore(real3 origin, real3 direction, real3 v0, real3 v1
     return inside && t > T_MIN && t < INFINITY ? t : INFINITY;
 }
 
+// Whether one of them is below 0 and another above.
+bool has_both_signs(real u, real v, real w)
+{
+#ifdef TURNER_F64
+    return (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0);
+#else
+    ivec3 bits = floatBitsToInt(vec3(u, v, w)); // none is −0
+    return (bits.x | bits.y | bits.z) < 0 && max(max(bits.x, bits.y), bits.z) > 0;
+#endif
+}
+
 // t > T_MIN and the barycentric coordinates of corners 1 and 2, or INFINITY. Both sides are hit.
 real intersect_triangle(real3 origin, real3 direction, shear_t shear, real3 v0, real3 v1, real3 v2,
                         out real2 b)
@@ -71,7 +82,7 @@ real intersect_triangle(real3 origin, real3 direction, shear_t shear, real3 v0, 
     real u = edge_function(a2.x, a1.y, a2.y, a1.x);
     real v = edge_function(a0.x, a2.y, a0.y, a2.x);
     real w = edge_function(a1.x, a0.y, a1.y, a0.x);
-    if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0))
+    if (has_both_signs(u, v, w))
         return INFINITY;
     real determinant = u + v + w;
     real t = shear.s.z * (u * z0 + v * z1 + w * z2) / determinant;

@@ -151,6 +151,26 @@ static void sort_few(uint8_t places[TURNER_BVH_FEW], const turner_vec4 centers[T
     }
 }
 
+/* Two are divided in one way, whatever the axis: half of all that are few. */
+static struct turner_split split_two(uint8_t places[TURNER_BVH_FEW],
+                                     const struct turner_box4 box[2], const turner_vec4 centers[2])
+{
+    int axis = 0;
+    while (axis < 3 && centers[0][axis] == centers[1][axis])
+        axis++;
+    if (axis == 3)
+        return (struct turner_split){.axis = -1};
+    int first = centers[0][axis] > centers[1][axis];
+    places[0] = (uint8_t)first;
+    places[1] = (uint8_t)!first;
+    return (struct turner_split){
+        .axis = axis,
+        .left = 1,
+        .cost = turner_box4_area(&box[0]) + turner_box4_area(&box[1]),
+        .box = {box[first], box[!first]},
+    };
+}
+
 struct turner_split turner_split_few(uint8_t places[TURNER_BVH_FEW],
                                      const struct turner_bvh_item *items, uint32_t count)
 {
@@ -162,6 +182,8 @@ struct turner_split turner_split_few(uint8_t places[TURNER_BVH_FEW],
             (struct turner_box4){turner_vec4_load3(items[i].lo), turner_vec4_load3(items[i].hi)};
         centers[i] = turner_center4(box[i].lo, box[i].hi);
     }
+    if (count == 2)
+        return split_two(places, box, centers);
     for (int axis = 0; axis < 3; axis++) {
         uint8_t sorted[TURNER_BVH_FEW];
         sort_few(sorted, centers, count, axis);
