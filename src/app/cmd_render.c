@@ -1,4 +1,5 @@
 #include <getopt.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +12,7 @@
 #include "render/layers.h"
 #include "render/opening.h"
 #include "render/renderer.h"
+#include "render/shader_watch.h"
 #include "scene/camera_file.h"
 
 static void print_help(void)
@@ -53,6 +55,9 @@ static void print_help(void)
          "      --threads N        of the reference\n"
          "      --no-cache         compile the shaders anew, and keep nothing (docs/start.md)\n"
          "      --unspecialised    compile everything in, needed or not: same picture, slower\n"
+         "      --watch            draw again whenever a file that went into the picture is saved:\n"
+         "                         shaders, the scene, meshes, textures; say what is wrong and go on;\n"
+         "                         Ctrl-C ends it (status 130)\n"
          "      --stats FILE       what was done and how long it took, as JSON (- for stdout)\n"
          "      --print-settings   print the settings as they will be used, and stop\n"
          "  -q, --quiet            no progress bar, no summary, no warnings\n"
@@ -69,9 +74,17 @@ struct arguments {
     double loading, start; /* seconds before main, and the clock then */
     struct turner_layers layers;
     struct turner_scene_options options;
+    struct turner_progress_bar bar;
+    /* --watch */
+    bool watching;
+    struct turner_watch *watch; /* the files that went into the picture; NULL without */
+    struct timespec since;      /* before they were read */
+    bool changed;               /* one has changed while the picture was drawn */
+    double looked;              /* when that was last looked at */
 };
 
-enum { TILE = TURNER_OPTION_OWN, PATH, THREADS, UNSPECIALISED, NO_CACHE, STATS, PRINT_SETTINGS, AOV };
+enum { TILE = TURNER_OPTION_OWN, PATH, THREADS, UNSPECIALISED, NO_CACHE, STATS, PRINT_SETTINGS, AOV,
+       WATCH };
 
 static const struct option long_options[] = {
     {"output", required_argument, NULL, 'o'},
@@ -101,6 +114,7 @@ static const struct option long_options[] = {
     {"unspecialised", no_argument, NULL, UNSPECIALISED},
     {"stats", required_argument, NULL, STATS},
     {"print-settings", no_argument, NULL, PRINT_SETTINGS},
+    {"watch", no_argument, NULL, WATCH},
     {"quiet", no_argument, NULL, 'q'},
     {"help", no_argument, NULL, 'h'},
     {0}};
@@ -119,6 +133,7 @@ static enum turner_result take(struct arguments *a, int option, char **argv)
     case UNSPECIALISED: render->unspecialised = true; return TURNER_OK;
     case STATS: a->stats = optarg; return TURNER_OK;
     case PRINT_SETTINGS: a->print_settings = true; return TURNER_OK;
+    case WATCH: a->watching = true; return TURNER_OK;
     }
     return turner_scene_option_take(&a->options, option, argv);
 }
@@ -149,21 +164,27 @@ static double loading_seconds(void)
     return (double)used.tv_sec + 1e-9 * (double)used.tv_nsec;
 }
 
+static bool show(double share, void *user)
+{
+    return turner_progress_show(share, &((struct arguments *)user)->bar);
+}
+
+static bool show_and_look(double share, void *user);
+
 static enum turner_result render(struct arguments *a, struct turner_scene *scene,
                                  struct turner_statistics *statistics,
                                  struct turner_opening *opening)
 {
-    struct turner_progress_bar bar;
     struct turner_image image = {0};
     enum turner_result result;
-    turner_progress_begin(&bar, a->quiet);
-    bar.what = a->what;
+    turner_progress_begin(&a->bar, a->quiet);
+    a->bar.what = a->what;
     struct turner_render_options *options = &a->options.render;
-    options->progress = turner_progress_show;
-    options->user = &bar;
+    options->progress = a->watch ? show_and_look : show;
+    options->user = a;
     options->layers = a->layers.wanted ? &a->layers : NULL;
     result = turner_render_opened(&image, scene, options, statistics, opening);
-    turner_progress_end(&bar);
+    turner_progress_end(&a->bar);
     if (result != TURNER_OK)
         goto done;
     double start = turner_seconds();
@@ -184,6 +205,8 @@ done:
 static enum turner_result load(struct turner_scene **scene, const struct arguments *a)
 {
     TURNER_TRY(turner_scene_load(scene, a->scene));
+    if (a->watch)
+        turner_shader_watch_all(a->watch, &a->options.render, *scene, a->since);
     enum turner_result result = turner_scene_options_apply(&a->options, *scene);
     if (result != TURNER_OK)
         turner_scene_destroy(*scene);
@@ -234,20 +257,89 @@ static enum turner_result render_path(struct arguments *a, struct turner_scene *
     return result;
 }
 
-static enum turner_result load_and_render(struct arguments *a)
+/* The scene once, with a device that is being opened. */
+static enum turner_result load_and_render(struct arguments *a, struct turner_opening *opening)
 {
     struct turner_scene *scene;
     struct turner_statistics statistics = {0};
+    double start = turner_seconds();
+    TURNER_TRY(load(&scene, a));
+    statistics.seconds_parse = turner_seconds() - start;
+    turner_advise(scene, a->scene, turner_image_bits(a->output));
+    enum turner_result result = (a->path ? render_path : render)(a, scene, &statistics, opening);
+    turner_scene_destroy(scene);
+    return result;
+}
+
+/* ---- --watch ---- */
+
+static void pause_for(double seconds)
+{
+    struct timespec time = {(time_t)seconds, (long)(1e9 * fmod(seconds, 1))};
+    nanosleep(&time, NULL);
+}
+
+/* Until a file changes, and then until all are left in peace: one that is being written is changed
+ * several times. */
+static void wait_for_change(struct arguments *a)
+{
+    bool changed = a->changed;
+    for (int quiet = 0; !changed || quiet < 2;) {
+        pause_for(changed ? 0.015 : 0.05);
+        bool now = turner_watch_changed(a->watch);
+        quiet = now ? 0 : quiet + 1;
+        changed |= now;
+    }
+}
+
+/* For turner_render_options.progress: a picture of files that have changed since is not finished. */
+static bool show_and_look(double share, void *user)
+{
+    struct arguments *a = user;
+    double now = turner_seconds();
+    if (now - a->looked > 0.05) {
+        a->looked = now;
+        a->changed |= turner_watch_changed(a->watch);
+    }
+    return !a->changed && turner_progress_show(share, &a->bar);
+}
+
+/* Draws, and again whenever a file that went into the picture changes, until somebody ends the
+ * program. What is wrong with a file is said, and may be mended; all else ends it. */
+static enum turner_result watch(struct arguments *a, struct turner_opening *opening)
+{
+    struct turner_watch files = {0};
+    enum turner_result result;
+    bool drawn = false; /* once: the command line is right */
+    a->watch = &files;
+    for (;;) {
+        a->since = turner_watch_now();
+        a->changed = false;
+        a->start = turner_seconds();
+        turner_watch_reads(&files, a->since);
+        result = load_and_render(a, opening);
+        turner_watch_reads(NULL, a->since);
+        bool wrong = result == TURNER_BAD_INPUT || (result == TURNER_USAGE && drawn);
+        drawn |= result == TURNER_OK;
+        if (wrong)
+            fprintf(stderr, "%s\n", turner_message());
+        else if (result != TURNER_OK && !(result == TURNER_INTERRUPTED && a->changed))
+            break;
+        fflush(stdout);
+        a->loading = 0;
+        wait_for_change(a);
+        if (!wrong) /* what was not reached may be among those from before */
+            turner_watch_clear(&files);
+    }
+    turner_watch_clear(&files);
+    return result;
+}
+
+static enum turner_result open_and_render(struct arguments *a)
+{
     struct turner_opening opening;
     turner_opening_start(&opening, a->options.render.device);
-    double start = turner_seconds();
-    enum turner_result result = load(&scene, a);
-    statistics.seconds_parse = turner_seconds() - start;
-    if (result == TURNER_OK) {
-        turner_advise(scene, a->scene, turner_image_bits(a->output));
-        result = (a->path ? render_path : render)(a, scene, &statistics, &opening);
-        turner_scene_destroy(scene);
-    }
+    enum turner_result result = a->watching ? watch(a, &opening) : load_and_render(a, &opening);
     turner_opening_destroy(&opening);
     return result;
 }
@@ -280,5 +372,5 @@ enum turner_result turner_cmd_render(int argc, char **argv)
     if (a.stats && strcmp(a.stats, "-") != 0)
         TURNER_TRY(turner_atomic_check(a.stats));
 
-    return a.print_settings ? print_settings(&a) : load_and_render(&a);
+    return a.print_settings ? print_settings(&a) : open_and_render(&a);
 }

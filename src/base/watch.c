@@ -108,6 +108,21 @@ bool turner_watch_changed(struct turner_watch *watch)
     return any;
 }
 
+static _Thread_local struct turner_watch *noting;
+static _Thread_local struct timespec noting_since;
+
+void turner_watch_reads(struct turner_watch *watch, struct timespec since)
+{
+    noting = watch;
+    noting_since = since;
+}
+
+void turner_watch_note(const char *path)
+{
+    if (noting)
+        turner_watch_add(noting, path, noting_since);
+}
+
 void turner_watch_clear(struct turner_watch *watch)
 {
     for (size_t i = 0; i < watch->count; i++)

@@ -35,6 +35,11 @@ void turner_watch_add(struct turner_watch *watch, const char *path, struct times
 /* Whether a file has changed, come or gone since the last call, or since it was added. */
 bool turner_watch_changed(struct turner_watch *watch);
 
+/* From here on what this thread's readers read is watched, found or not: they call
+ * turner_watch_note. NULL ends it. `since` as above. */
+void turner_watch_reads(struct turner_watch *watch, struct timespec since);
+void turner_watch_note(const char *path);
+
 /* Forgets all files, and frees everything. */
 void turner_watch_clear(struct turner_watch *watch);
 

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "base/watch.h"
 #include "scene/readers.h"
 
 static const char known_endings[] = ".json, .nff, .obj, .ply, .stl, .gltf and .glb";
@@ -32,12 +33,15 @@ static bool is_mesh(const char *path)
 char *turner_path_beside(const char *path, const char *name)
 {
     const char *slash = strrchr(path, '/');
-    if (name[0] == '/' || !slash)
+    if (name[0] == '/' || !slash) {
+        turner_watch_note(name);
         return turner_strdup(name);
+    }
     size_t folder = (size_t)(slash - path) + 1, length = strlen(name);
     char *beside = turner_calloc(folder + length + 1, 1);
     memcpy(beside, path, folder);
     memcpy(beside + folder, name, length);
+    turner_watch_note(beside);
     return beside;
 }
 
@@ -170,6 +174,7 @@ enum turner_result turner_scene_parse(struct turner_scene **out, const char *tex
 enum turner_result turner_scene_load(struct turner_scene **out, const char *path)
 {
     *out = NULL;
+    turner_watch_note(path);
     enum turner_result result;
     char *text = NULL;
     size_t size = 0;
