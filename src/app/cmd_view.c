@@ -29,6 +29,7 @@ static void print_help(void)
          "  Home; 0 1 … 9           back to where it began; the scene's cameras\n"
          "  C; Shift+C              print the camera as JSON; write it into the scene file\n"
          "  R                       record a path of cameras, and end it: turner render --path draws it\n"
+         "  V, Shift+V              what is shown: picture, normal, depth, … as --show\n"
          "  S                       save the picture, once it is finished\n"
          "  Tab or P                panel\n"
          "  F1                      all keys\n"
@@ -46,6 +47,8 @@ static void print_help(void)
          "                         repeated)\n"
          "      --shader-dir DIR   take shaders from here first (may be repeated)\n"
          "      --no-scene-shaders leave out the shaders of the scene's own folder (docs/shaders.md)\n"
+         "      --show WHAT        picture | normal | depth | id | rays | recursion | pruned | error |\n"
+         "                         nonfinite | difference: to the reference, of a small picture\n"
          "      --spin SECONDS     the camera goes around by itself, once in so long\n"
          "      --seconds S        close after so long\n"
          "      --stats FILE       time to the first picture, pictures a second while moving and what\n"
@@ -59,10 +62,11 @@ struct arguments {
     const char *scene, *output, *stats;
     double spin, seconds, start;
     bool quiet;
+    int seen;
     struct turner_scene_options options;
 };
 
-enum { SPIN = TURNER_OPTION_OWN, SECONDS, STATS };
+enum { SPIN = TURNER_OPTION_OWN, SECONDS, STATS, SHOW };
 
 static const struct option long_options[] = {
     {"output", required_argument, NULL, 'o'},
@@ -84,12 +88,21 @@ static const struct option long_options[] = {
     {"shader-dir", required_argument, NULL, TURNER_OPTION_SHADER_DIR},
     {"set", required_argument, NULL, TURNER_OPTION_SET},
     {"no-scene-shaders", no_argument, NULL, TURNER_OPTION_NO_SCENE_SHADERS},
+    {"show", required_argument, NULL, SHOW},
     {"spin", required_argument, NULL, SPIN},
     {"seconds", required_argument, NULL, SECONDS},
     {"stats", required_argument, NULL, STATS},
     {"quiet", no_argument, NULL, 'q'},
     {"help", no_argument, NULL, 'h'},
     {0}};
+
+static enum turner_result take_seen(int *seen, const char *text)
+{
+    const char *names[TURNER_SEEN_KINDS + 1] = {NULL};
+    for (int i = 0; i < TURNER_SEEN_KINDS; i++)
+        names[i] = turner_seen_name((enum turner_seen)i);
+    return turner_option_choice(seen, "--show", text, names);
+}
 
 static enum turner_result take(struct arguments *a, int option, char **argv)
 {
@@ -98,6 +111,7 @@ static enum turner_result take(struct arguments *a, int option, char **argv)
     case 'q': a->quiet = true; return TURNER_OK;
     case SPIN: return turner_option_real(&a->spin, "--spin", optarg, 0.1, 1e6);
     case SECONDS: return turner_option_real(&a->seconds, "--seconds", optarg, 0.1, 1e6);
+    case SHOW: return take_seen(&a->seen, optarg);
     case STATS: a->stats = optarg; return TURNER_OK;
     }
     return turner_scene_option_take(&a->options, option, argv);
@@ -180,6 +194,7 @@ static enum turner_result load_and_view(struct arguments *a)
     result = turner_scene_options_apply(&a->options, scene);
     struct turner_view_options options = {
         .first = first,
+        .seen = (enum turner_seen)a->seen,
         .camera = a->options.camera,
         .scene = scene,
         .path = a->scene,

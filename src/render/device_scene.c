@@ -30,6 +30,9 @@ static void set_both(float out[3], float rest[3], struct turner_vec3 v)
 static enum turner_result upload(struct turner_device_scene *device, struct turner_gpu *gpu,
                                  enum turner_array array, const void *data, size_t bytes)
 {
+    if (device->arrays[array].buffer) { /* made before: only what is in it changes */
+        return turner_buffer_upload(gpu, &device->arrays[array], 0, data, bytes);
+    }
     VkBufferUsageFlags extra =
         array == TURNER_ARRAY_PRIMITIVES && gpu->info.ray_query ? TURNER_ACCEL_INPUT : 0;
     TURNER_TRY(turner_buffer_create(&device->arrays[array], gpu, bytes, extra,
@@ -335,6 +338,14 @@ enum turner_result turner_device_scene_create(struct turner_device_scene *device
         TURNER_TRY(turner_device_scene_build(device, gpu, flat));
     struct turner_gpu_scene block = scene_block(device, scene, flat, needs, ray_query);
     return upload(device, gpu, TURNER_ARRAY_SCENE, &block, sizeof block);
+}
+
+enum turner_result turner_device_scene_paint(struct turner_device_scene *device,
+                                             struct turner_gpu *gpu,
+                                             const struct turner_scene *scene)
+{
+    TURNER_TRY(upload_materials(device, gpu, scene));
+    return upload_lights(device, gpu, scene);
 }
 
 void turner_device_scene_destroy(struct turner_gpu *gpu, struct turner_device_scene *device)

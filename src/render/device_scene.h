@@ -46,6 +46,10 @@ enum turner_result turner_device_scene_look(struct turner_device_scene *device,
                                             const struct turner_scene *scene,
                                             const struct turner_flat *flat,
                                             const struct turner_needs *needs, bool ray_query);
+/* Uploads materials and lights, as many as there were, anew. */
+enum turner_result turner_device_scene_paint(struct turner_device_scene *device,
+                                             struct turner_gpu *gpu,
+                                             const struct turner_scene *scene);
 void turner_device_scene_destroy(struct turner_gpu *gpu, struct turner_device_scene *device);
 
 /* The acceleration structures alone (acceleration.c). */

@@ -337,6 +337,26 @@ enum turner_result turner_renderer_look(struct turner_renderer *renderer,
     return renderer->accurate ? turner_renderer_look(renderer->accurate, scene) : TURNER_OK;
 }
 
+static bool transmits(const struct turner_material *material)
+{
+    return material->k_t.x != 0 || material->k_t.y != 0 || material->k_t.z != 0;
+}
+
+enum turner_result turner_renderer_paint(struct turner_renderer *renderer,
+                                         const struct turner_scene *before,
+                                         const struct turner_scene *scene, bool *fits)
+{
+    *fits = !(turner_needs_of(scene).bits & ~renderer->needs.bits);
+    for (size_t i = 0; i < scene->material_count && *fits; i++)
+        *fits = transmits(&scene->materials[i]) == transmits(&before->materials[i]);
+    if (!*fits)
+        return TURNER_OK;
+    TURNER_TRY(turner_device_scene_paint(&renderer->scene, renderer->gpu, scene));
+    return renderer->accurate ? turner_device_scene_paint(&renderer->accurate->scene,
+                                                          renderer->gpu, scene)
+                              : TURNER_OK;
+}
+
 void turner_renderer_destroy(struct turner_renderer *renderer)
 {
     struct turner_gpu *gpu = renderer->gpu;

@@ -129,6 +129,13 @@ enum turner_result turner_renderer_look(struct turner_renderer *renderer,
 enum turner_result turner_renderer_set_bounds(struct turner_renderer *renderer,
                                               const struct turner_needs *needs);
 
+/* Takes the materials and lights of `scene`, which has as many as the one it was created with, and
+ * differs in nothing else; draw after turner_renderer_look. `fits` gets false, and nothing is done,
+ * when the kernel lacks what they need, or a material begins or ceases to transmit. */
+enum turner_result turner_renderer_paint(struct turner_renderer *renderer,
+                                         const struct turner_scene *before,
+                                         const struct turner_scene *scene, bool *fits);
+
 /* Runs the kernel of render.comp on no pixel: a driver that compiles at the first dispatch does so
  * then. */
 enum turner_result turner_renderer_warm(struct turner_renderer *renderer);

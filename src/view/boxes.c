@@ -15,6 +15,7 @@ static const char *const keys[][2] = {
     {"C", "print the camera as JSON"},
     {"Shift+C", "write it into the scene file"},
     {"R", "record a path of cameras, and end it"},
+    {"V, Shift+V", "what is shown: picture, normal, depth …"},
     {"S", "save the picture, once it is finished"},
     {"Tab, P", "panel"},
     {"F1", "these keys"},
@@ -39,11 +40,28 @@ static void show_toast(const struct turner_session *session, const struct turner
     ui->close();
 }
 
+static void show_legend(const struct turner_session *session, const struct turner_ui *ui)
+{
+    char text[256];
+    if (session->wish.seen == TURNER_SEEN_PICTURE)
+        return;
+    snprintf(text, sizeof text, "%s%s%s", turner_seen_name(session->wish.seen),
+             session->sight.legend[0] ? ": " : "", session->sight.legend);
+    if (session->wish.seen == TURNER_SEEN_DIFFERENCE && !session->sight.compared)
+        snprintf(text, sizeof text, "difference: the reference is at work");
+    ui->open("##legend", 4, 0, true);
+    ui->text(text);
+    ui->close();
+}
+
 void turner_session_boxes(struct turner_session *session)
 {
     const struct turner_ui *ui = &session->functions->ui;
     ui->begin(session->window);
+    if (session->panel)
+        turner_panel(session);
     if (session->keys)
         show_keys(ui);
+    show_legend(session, ui);
     show_toast(session, ui);
 }

@@ -28,14 +28,16 @@ static void touched(struct turner_session *session)
 static void press(struct turner_session *session, const struct turner_window_event *event)
 {
     double now = turner_seconds();
-    bool near = fabs(event->x - session->x) < CLICK_PIXELS &&
-                fabs(event->y - session->y) < CLICK_PIXELS;
+    bool near = fabs(event->x - session->click_x) < CLICK_PIXELS &&
+                fabs(event->y - session->click_y) < CLICK_PIXELS;
     session->x = event->x;
     session->y = event->y;
-    if (event->button == GLFW_MOUSE_BUTTON_LEFT && !(event->mods & GLFW_MOD_CONTROL)) {
+    if (event->button == GLFW_MOUSE_BUTTON_LEFT && event->mods == 0) {
         if (near && now - session->click < CLICK_SECONDS)
             turner_painter_pick(&session->painter, event->x, event->y);
         session->click = now;
+        session->click_x = event->x;
+        session->click_y = event->y;
     }
     if (event->button == GLFW_MOUSE_BUTTON_LEFT)
         session->drag = event->mods & GLFW_MOD_SHIFT ? TURNER_DRAG_PAN : TURNER_DRAG_ORBIT;
@@ -61,6 +63,7 @@ static void move(struct turner_session *session, const struct turner_window_even
         turner_camera_turn(camera, -dx / height * camera->vfov, dy / height * camera->vfov);
     else
         turner_camera_pan(camera, dx, dy, (int)height);
+    session->click = 0; /* it was no click */
     touched(session);
 }
 
@@ -148,6 +151,11 @@ static void key(struct turner_session *session, const struct turner_window_event
                                       : turner_session_print_camera)(session);
         break;
     case GLFW_KEY_R: turner_session_record(session); break;
+    case GLFW_KEY_V:
+        turner_session_see(session, (session->wish.seen +
+                                     (event->mods & GLFW_MOD_SHIFT ? TURNER_SEEN_KINDS - 1 : 1)) %
+                                        TURNER_SEEN_KINDS);
+        break;
     case GLFW_KEY_S:
         turner_session_name(name, session->options->output, NULL);
         turner_painter_shoot(&session->painter, name);

@@ -55,6 +55,29 @@ void turner_painter_shoot(struct turner_painter *painter, const char *path)
     pthread_mutex_unlock(&painter->mutex);
 }
 
+static void *copy_of(const void *items, size_t count, size_t size)
+{
+    void *copy = turner_calloc(count + 1, size);
+    if (count)
+        memcpy(copy, items, count * size);
+    return copy;
+}
+
+void turner_painter_paint(struct turner_painter *painter, const struct turner_scene *scene)
+{
+    pthread_mutex_lock(&painter->mutex);
+    free(painter->painted.materials);
+    free(painter->painted.lights);
+    painter->painted = *scene;
+    painter->painted.materials =
+        copy_of(scene->materials, scene->material_count, sizeof *scene->materials);
+    painter->painted.lights = copy_of(scene->lights, scene->light_count, sizeof *scene->lights);
+    painter->fresh_painted = true;
+    painter->fresh_wish = true; /* the same once more */
+    pthread_cond_signal(&painter->changed);
+    pthread_mutex_unlock(&painter->mutex);
+}
+
 void turner_painter_pick(struct turner_painter *painter, double x, double y)
 {
     pthread_mutex_lock(&painter->mutex);
@@ -118,7 +141,14 @@ static void write_shot(struct turner_painter *painter)
         return;
     char text[1024];
     struct turner_statistics statistics = painter->own.statistics;
-    if (painter->options.write(path, &painter->scene, &painter->full, &statistics) == TURNER_OK)
+    struct turner_scene scene = painter->scene;
+    const struct turner_image *image = &painter->full;
+    if (painter->own.seen) { /* colours are as they are */
+        image = &painter->colors;
+        scene.settings.exposure = 0;
+        scene.settings.transfer = TURNER_TRANSFER_LINEAR;
+    }
+    if (painter->options.write(path, &scene, image, &statistics) == TURNER_OK)
         snprintf(text, sizeof text, "saved %s", path);
     else
         snprintf(text, sizeof text, "%s", turner_message());
@@ -197,6 +227,7 @@ static enum turner_result work(struct turner_painter *painter)
         if (!wait_for(painter, &wish, &fresh, stage == TURNER_STAGE_DONE, seconds))
             return TURNER_OK;
         if (fresh) {
+            TURNER_TRY(turner_painter_take_paint(painter));
             TURNER_TRY(turner_painter_prepare(painter, &wish));
             stage = turner_painter_first(painter, &wish);
             waited = false;
@@ -255,6 +286,8 @@ void turner_painter_stop(struct turner_painter *painter)
     pthread_cond_destroy(&painter->changed);
     pthread_mutex_destroy(&painter->mutex);
     turner_sight_destroy(&painter->sight);
+    free(painter->painted.materials);
+    free(painter->painted.lights);
     free(painter->shot);
     painter->shot = NULL;
 }

@@ -10,8 +10,24 @@
 #include "scene/scene.h"
 #include "view/pace.h"
 
+/* What is shown of the scene. */
+enum turner_seen {
+    TURNER_SEEN_PICTURE,
+    TURNER_SEEN_NORMAL,
+    TURNER_SEEN_DEPTH,
+    TURNER_SEEN_ID,
+    TURNER_SEEN_RAYS,
+    TURNER_SEEN_RECURSION,
+    TURNER_SEEN_PRUNED,
+    TURNER_SEEN_ERROR,
+    TURNER_SEEN_NONFINITE,
+    TURNER_SEEN_DIFFERENCE, /* to the reference, of a small picture */
+    TURNER_SEEN_KINDS
+};
+
 /* What is to be seen. The size is that of the settings. */
 struct turner_wish {
+    enum turner_seen seen;
     struct turner_camera camera;
     struct turner_settings settings;
     bool moving; /* there is more to come: wait a little before going on to better pictures */
@@ -35,6 +51,11 @@ struct turner_sight {
     double share;                    /* of the stage that is under way */
     double seconds; /* it took, or so far */
     struct turner_statistics statistics;
+    enum turner_seen seen;
+    char legend[160]; /* what its colours mean; of the picture: "" */
+    bool compared;    /* DIFFERENCE: these are known */
+    struct turner_comparison comparison;
+    double reference_seconds;
     unsigned count; /* of pictures before it that were not parts of one */
 };
 
@@ -63,6 +84,8 @@ struct turner_painter {
     bool pick, fresh_picked, met;   /* what lies at a place is asked for; the answer is there */
     double pick_x, pick_y;
     struct turner_vec3 picked;
+    struct turner_scene painted;    /* of which only materials and lights are there; */
+    bool fresh_painted;             /* owned here, until they are taken */
     char *shot;                     /* NULL, or where the full picture is to be written */
     char reply[1024], failure[2048]; /* for people: what became of it; why nothing can be drawn */
     bool fresh_reply;
@@ -73,10 +96,13 @@ struct turner_painter {
     struct turner_kernel kernel;
     struct turner_renderer renderer;
     struct turner_statistics made; /* what making the renderer took */
+    struct turner_material *materials; /* that the panel changed; else NULL */
+    struct turner_light *lights;
+    bool counts; /* the renderer counts the rays of each pixel */
     struct turner_settings built;  /* the settings it was made with */
     bool ready;
     struct turner_pace pace;
-    struct turner_image quick, full;
+    struct turner_image quick, full, colors; /* the last: layers as colours */
     struct turner_sight own; /* being filled */
     struct turner_packer packer;
     double exposure;
@@ -103,6 +129,9 @@ void turner_sight_destroy(struct turner_sight *sight);
 /* Has the picture of the wish written as soon as it is full. */
 void turner_painter_shoot(struct turner_painter *painter, const char *path);
 
+/* Has the materials and lights of `scene` drawn, which has as many as that of the painter. */
+void turner_painter_paint(struct turner_painter *painter, const struct turner_scene *scene);
+
 /* Asks for the point that is seen at (x, y) of the picture of the wish, in pixels. */
 void turner_painter_pick(struct turner_painter *painter, double x, double y);
 /* The answer, once: false as long as there is none. `met`: there is something. */
@@ -125,9 +154,22 @@ enum turner_stage turner_painter_next(const struct turner_wish *wish, enum turne
 /* Makes the renderer fit the settings of the wish. */
 enum turner_result turner_painter_prepare(struct turner_painter *painter,
                                           const struct turner_wish *wish);
+/* Takes what turner_painter_paint left. */
+enum turner_result turner_painter_take_paint(struct turner_painter *painter);
 void turner_painter_clear(struct turner_painter *painter);
 /* pick.c, in the thread: what the ray through (x, y) meets. */
 enum turner_result turner_painter_meet(struct turner_painter *painter, double x, double y,
                                        struct turner_vec3 *point, bool *met);
+
+/* falsecolor.c: layers as colours for the screen, of the picture `image` they belong to. */
+struct turner_layers;
+const char *turner_seen_name(enum turner_seen seen);
+uint32_t turner_seen_layers(enum turner_seen seen); /* that it takes: turner_layers.wanted */
+void turner_false_color(struct turner_image *colors, char legend[160], enum turner_seen seen,
+                        const struct turner_layers *layers, const struct turner_image *image);
+
+/* compare.c: fills `colors` and what own says of the comparison. */
+enum turner_result turner_painter_compare(struct turner_painter *painter,
+                                          const struct turner_render_options *options);
 
 #endif

@@ -30,9 +30,14 @@ struct turner_session {
     bool fast, slow;
     struct turner_camera_path recorded; /* as it is recorded; rate 0: it is not */
     double record_next;         /* when the next camera is due */
-    double click;               /* when the last was, at x and y */
+    double click, click_x, click_y; /* when and where the last was */
     double clock;               /* when the camera was last moved by keys or by itself */
 
+    struct turner_scene scene;  /* as the panel has changed it: shares all but, once `owns`, */
+    bool owns;                  /* materials and lights */
+    bool painted;               /* the painter is to have them */
+    int material, light;        /* that the panel shows */
+    double frame_seconds;       /* from the frame before the last to the last */
     bool keys, panel;           /* boxes that are open */
     char toast[1200];           /* what just happened, until `toast_end` */
     double toast_end;
@@ -57,6 +62,11 @@ void turner_session_record_frame(struct turner_session *session); /* in every tu
 
 /* `output`, or the first name like it, with a number, that is free. */
 void turner_session_name(char name[1024], const char *output, const char *ending);
+
+/* panel.c */
+void turner_panel(struct turner_session *session);
+void turner_panel_close(struct turner_session *session);
+void turner_session_see(struct turner_session *session, enum turner_seen seen);
 
 /* boxes.c: everything over the picture. */
 void turner_session_boxes(struct turner_session *session);

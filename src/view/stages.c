@@ -8,6 +8,10 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "render/adaptive.h"
+#include "render/cells.h"
+#include "render/contrast.h"
+#include "render/features.h"
+#include "render/layers.h"
 #include "view/painter.h"
 
 #define PIECE_SECONDS 0.012 /* what is submitted at once: a new wish waits for its end */
@@ -23,6 +27,11 @@ void turner_painter_clear(struct turner_painter *painter)
     turner_kernel_destroy(&painter->kernel);
     turner_image_destroy(&painter->quick);
     turner_image_destroy(&painter->full);
+    turner_image_destroy(&painter->colors);
+    free(painter->materials);
+    free(painter->lights);
+    painter->materials = NULL;
+    painter->lights = NULL;
     turner_sight_destroy(&painter->own);
     painter->ready = false;
 }
@@ -63,8 +72,11 @@ static enum turner_result create(struct turner_painter *painter)
         }
     }
     turner_renderer_destroy(&painter->renderer);
+    struct turner_layers rays = {.wanted = TURNER_LAYERS_OF_RAYS};
+    struct turner_render_options counting = *options;
+    counting.layers = painter->counts ? &rays : NULL;
     TURNER_TRY(turner_renderer_create(&painter->renderer, gpu, &painter->kernel, &painter->scene,
-                                      options, made));
+                                      &counting, made));
     TURNER_TRY(turner_renderer_warm(&painter->renderer));
     painter->renderer.piece = PIECE_SECONDS;
     snprintf(made->device, sizeof made->device, "%s", gpu->info.name);
@@ -77,7 +89,12 @@ static enum turner_result create(struct turner_painter *painter)
 enum turner_result turner_painter_prepare(struct turner_painter *painter,
                                           const struct turner_wish *wish)
 {
-    bool ready = painter->ready && fits(&painter->built, &wish->settings);
+    bool counts = turner_seen_layers(wish->seen) & TURNER_LAYERS_OF_RAYS;
+    bool ready = painter->ready && counts == painter->counts &&
+                 fits(&painter->built, &wish->settings) &&
+                 (!wish->camera.inside_count ||
+                  painter->renderer.needs.bits & TURNER_NEEDS_MEDIA);
+    painter->counts = counts;
     painter->scene.camera = wish->camera;
     painter->scene.settings = wish->settings;
     if (!ready) {
@@ -90,6 +107,33 @@ enum turner_result turner_painter_prepare(struct turner_painter *painter,
     if (!ready || depth != painter->pace.depth[0])
         turner_pace_start(&painter->pace, depth);
     return TURNER_OK;
+}
+
+enum turner_result turner_painter_take_paint(struct turner_painter *painter)
+{
+    pthread_mutex_lock(&painter->mutex);
+    bool fresh = painter->fresh_painted;
+    struct turner_scene painted = painter->painted, before = painter->scene;
+    painter->fresh_painted = false;
+    if (fresh)
+        painter->painted = (struct turner_scene){0};
+    pthread_mutex_unlock(&painter->mutex);
+    if (!fresh)
+        return TURNER_OK;
+    painter->scene.materials = painted.materials;
+    painter->scene.lights = painted.lights;
+    painter->scene.ambient = painted.ambient;
+    painter->scene.background = painted.background;
+    bool fits = false;
+    enum turner_result result = TURNER_OK;
+    if (painter->ready)
+        result = turner_renderer_paint(&painter->renderer, &before, &painter->scene, &fits);
+    painter->ready = painter->ready && fits;
+    free(painter->materials);
+    free(painter->lights);
+    painter->materials = painted.materials;
+    painter->lights = painted.lights;
+    return result;
 }
 
 /* ---- for the eye ---- */
@@ -121,12 +165,13 @@ static void pack_rows(void *user, uint32_t piece)
 static void pack(struct turner_painter *painter, const struct turner_image *image)
 {
     const struct turner_settings *settings = &painter->scene.settings;
-    bool linear = settings->transfer == TURNER_TRANSFER_LINEAR;
+    bool colors = image == &painter->colors; /* for the screen as they are */
+    bool linear = colors || settings->transfer == TURNER_TRANSFER_LINEAR;
+    double exposure = colors ? 0 : settings->exposure;
     struct turner_sight *own = &painter->own;
-    if (!painter->packer.format || painter->exposure != settings->exposure ||
-        painter->linear != linear) {
-        struct turner_image_encoding encoding = {.exposure = settings->exposure, .linear = linear};
-        painter->exposure = settings->exposure;
+    if (!painter->packer.format || painter->exposure != exposure || painter->linear != linear) {
+        struct turner_image_encoding encoding = {.exposure = exposure, .linear = linear};
+        painter->exposure = exposure;
         painter->linear = linear;
         turner_packer_create(&painter->packer, turner_format_find("a.png"), image, &encoding);
     }
@@ -185,7 +230,7 @@ static bool progress(double share, void *user)
     if (drawing->stage == TURNER_STAGE_QUICK)
         return !quit; /* soon finished: a frame that is given up is one that is missed */
     double now = turner_seconds();
-    if (go_on && share < 1 && now - painter->shown > PART_SECONDS &&
+    if (go_on && share < 1 && drawing->image && now - painter->shown > PART_SECONDS &&
         now - painter->started > PART_FIRST)
         publish(painter, drawing->image, drawing->settings, drawing->stage, share);
     return go_on;
@@ -276,6 +321,37 @@ static bool same_picture(const struct turner_settings *a, const struct turner_se
            a->depth == full->depth;
 }
 
+/* Something else than the picture, as colours. */
+static enum turner_result draw_seen(struct turner_painter *painter,
+                                    const struct turner_wish *wish, struct turner_image *image,
+                                    const struct turner_scene *scene,
+                                    struct turner_render_options *options)
+{
+    struct turner_layers layers = {.wanted = turner_seen_layers(wish->seen)};
+    enum turner_result result = turner_layers_create(&layers, scene);
+    options->layers = &layers;
+    if (result == TURNER_OK && turner_layers_want(&layers, TURNER_LAYERS_OF_CENTER))
+        result = turner_features_draw(&layers, &painter->renderer, &painter->kernel, scene,
+                                      options, &painter->own.statistics);
+    else if (result == TURNER_OK)
+        result = turner_renderer_draw(&painter->renderer, image, options,
+                                      &painter->own.statistics);
+    TURNER_TRY_DONE(result);
+    turner_layers_inspect(&layers, image);
+    float *error = layers.real[TURNER_LAYER_ERROR];
+    if (error && scene->settings.error == 0)
+        turner_contrast_estimate(error, image, scene->settings.aa_threshold > 0
+                                                   ? TURNER_CELL_SAMPLES : scene->settings.spp);
+    TURNER_TRY_DONE(resize(&painter->colors, scene->settings.width, scene->settings.height));
+    turner_false_color(&painter->colors, painter->own.legend, wish->seen, &layers, image);
+    if (wish->seen == TURNER_SEEN_DIFFERENCE &&
+        turner_painter_next(wish, painter->own.stage) == TURNER_STAGE_DONE)
+        result = turner_painter_compare(painter, options);
+done:
+    turner_layers_destroy(&layers);
+    return result;
+}
+
 enum turner_result turner_painter_draw(struct turner_painter *painter,
                                        const struct turner_wish *wish, enum turner_stage stage)
 {
@@ -283,7 +359,8 @@ enum turner_result turner_painter_draw(struct turner_painter *painter,
     struct turner_settings settings = stage == TURNER_STAGE_QUICK    ? quick(painter, full)
                                       : stage == TURNER_STAGE_SINGLE ? single(full)
                                                                      : *full;
-    bool whole = stage == TURNER_STAGE_QUICK && same_picture(&settings, full);
+    bool whole = stage == TURNER_STAGE_QUICK && same_picture(&settings, full) &&
+                 wish->seen != TURNER_SEEN_DIFFERENCE;
     struct turner_image *image =
         stage == TURNER_STAGE_QUICK && !whole ? &painter->quick : &painter->full;
     TURNER_TRY(resize(image, settings.width, settings.height));
@@ -297,11 +374,21 @@ enum turner_result turner_painter_draw(struct turner_painter *painter,
     options.progress = progress;
     options.user = &drawing;
     painter->own.statistics = painter->made;
+    painter->own.stage = stage;
     painter->own.quick = stage == TURNER_STAGE_QUICK;
     painter->started = painter->shown = turner_seconds();
     TURNER_TRY(turner_renderer_look(&painter->renderer, &scene));
-    TURNER_TRY(turner_renderer_draw(&painter->renderer, image, &options,
-                                    &painter->own.statistics));
+    painter->own.seen = wish->seen;
+    painter->own.legend[0] = 0;
+    painter->own.compared = false;
+    if (wish->seen == TURNER_SEEN_PICTURE) {
+        TURNER_TRY(turner_renderer_draw(&painter->renderer, image, &options,
+                                        &painter->own.statistics));
+    } else {
+        drawing.image = NULL; /* parts of it are not what is shown */
+        TURNER_TRY(draw_seen(painter, wish, image, &scene, &options));
+        image = &painter->colors;
+    }
     bool last = whole || turner_painter_next(wish, stage) == TURNER_STAGE_DONE;
     painter->count++;
     publish(painter, image, &settings, last ? TURNER_STAGE_DONE : stage, 1);

@@ -72,6 +72,7 @@ static void count_frame(struct turner_session *session, bool fresh)
     struct turner_view_report *report = session->report;
     double now = turner_seconds();
     report->frames++;
+    session->frame_seconds = now - session->presented;
     session->presented = now;
     if (!fresh)
         return;
@@ -118,8 +119,11 @@ static void follow_size(struct turner_session *session)
 
 static void send_wish(struct turner_session *session)
 {
-    if (!session->changed)
+    if (session->painted)
+        turner_painter_paint(&session->painter, &session->scene);
+    if (!session->changed && !session->painted)
         return;
+    session->painted = false;
     session->wish.moving = session->moving;
     turner_painter_wish(&session->painter, &session->wish);
     session->changed = session->moving = false;
@@ -133,7 +137,8 @@ static enum turner_result present(struct turner_session *session, bool fresh)
     if (fresh && functions->picture(session->window, session->sight.rgba, session->sight.width,
                                     session->sight.height) != TURNER_WINDOW_OK)
         return turner_fail(TURNER_DEVICE, "%s", functions->reason(session->window));
-    session->settle = session->dirty ? 1 : session->settle > 0 ? session->settle - 1 : 0;
+    bool boxes = fresh && (session->panel || session->wish.seen != TURNER_SEEN_PICTURE);
+    session->settle = session->dirty || boxes ? 2 : session->settle > 0 ? session->settle - 1 : 0;
     session->dirty = false;
     turner_session_boxes(session);
     switch (functions->show(session->window)) {
@@ -279,7 +284,9 @@ enum turner_result turner_view(const struct turner_view_options *options,
     struct turner_session session = {
         .options = options,
         .report = report,
-        .wish = {options->scene->camera, options->scene->settings, false},
+        .wish = {.camera = options->scene->camera, .settings = options->scene->settings,
+                 .seen = options->seen},
+        .scene = *options->scene,
         .home = options->scene->camera,
         .camera = options->camera,
         .clock = turner_seconds(),
@@ -313,6 +320,7 @@ done:
         session.functions->close(session.window);
     turner_sight_destroy(&session.sight);
     turner_camera_path_destroy(&session.recorded);
+    turner_panel_close(&session);
     turner_shader_path_destroy(&path);
     return result;
 }

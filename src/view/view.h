@@ -11,6 +11,7 @@ struct turner_view_options {
     struct turner_render_options render;
     turner_picture_writer write;
     struct turner_camera first;  /* the scene's camera 0; scene->camera may be another */
+    enum turner_seen seen;       /* what is shown at first */
     int camera;                  /* the number of scene->camera */
     const char *output; /* what S saves; numbered when it is there already */
     double start;       /* turner_seconds() when the program started */

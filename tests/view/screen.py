@@ -116,6 +116,7 @@ class View:
             return self.xdo("search", "--name", " turner$")
         self.window = wait_until("no window", there).split()[0]
         self.xdo("windowfocus", "--sync", self.window)
+        self.xdo("mousemove", self.screen.width - 1, self.screen.height - 1)  # it is drawn, too
         return self
 
     def key(self, *names):
@@ -163,9 +164,12 @@ class View:
         self.xdo("mousemove", x, y)
         if held:
             self.xdo("keydown", *held)
+        time.sleep(0.1)  # as slow as a hand: the panel looks at the mouse once a frame
         self.xdo("mousedown", button)
+        time.sleep(0.1)
         for step in (0.3, 0.7, 1):
-            self.xdo("mousemove", x + round(step * dx), y + round(step * dy))
+            self.xdo("mousemove", max(0, x + round(step * dx)), max(0, y + round(step * dy)))
+        time.sleep(0.1)
         self.xdo("mouseup", button)
         if held:
             self.xdo("keyup", *held)

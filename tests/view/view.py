@@ -207,6 +207,58 @@ def differs(view, key, value):
     return now if now != value else None
 
 
+GRAB = bytes((217, 168, 77))  # of a slider
+
+
+def sliders(screen, width, height):
+    """The middles of the sliders' grabs, from the top down."""
+    found, pixels = [], screen.shown(width, height)
+    for y in range(height):
+        row = pixels[3 * width * y:3 * width * (y + 1)]
+        xs = [x for x in range(width) if row[3 * x:3 * x + 3] == GRAB]
+        if len(xs) > 4:
+            if found and y - found[-1][2] < 4:
+                found[-1][2] = y
+            else:
+                found.append([sum(xs) // len(xs), y, y])
+    return [(x, (top + bottom) // 2) for x, top, bottom in found]
+
+
+def right_part(pixels, width, height):
+    """Beside the panel."""
+    return [pixels[3 * (width * y + 400):3 * width * (y + 1)] for y in range(height)]
+
+
+@test
+def panel(screen):
+    """The panel opens over the picture, and a slider changes it; so does what is shown."""
+    size = (640, 480)
+    view = View(screen, "scene.json", "-q", "--size", "640x480").find()
+    def wanted(*settings):
+        return right_part(ppm_pixels(render("scene.json", "wanted.ppm", "--size", "640x480",
+                                            *settings))[2], *size)
+    def shown():
+        return right_part(screen.shown(*size), *size)
+    deep, flat = wanted(), wanted("--depth", "0")
+    wait_until("no picture", lambda: shown() == deep)
+    bare = screen.shown(*size)
+    view.key("Tab")
+    wait_until("no panel", lambda: len(sliders(screen, *size)) >= 4)
+    x, y = sliders(screen, *size)[0]
+    view.drag(1, x, y, -300, 0)
+    wait_until("the slider changes nothing", lambda: shown() == flat)
+    view.drag(1, *sliders(screen, *size)[0], 300, 0)
+    wait_until("the slider changes nothing", lambda: shown() != flat)
+    view.key("Tab")
+    view.key("Home")
+    view.quit()
+    view = View(screen, "scene.json", "-q", "--size", "640x480", "--show", "normal").find()
+    wait_until("no normals", lambda: bytes((128, 255, 128)) in b"".join(shown()))  # the floor
+    view.key("shift+v")
+    wait_until("not the picture", lambda: screen.shown(*size) == bare)
+    view.quit()
+
+
 @test
 def cameras(screen):
     """Cameras of the scene, one written into its file, a path recorded and drawn."""

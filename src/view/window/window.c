@@ -33,6 +33,12 @@ static void to_pixels(const struct turner_window *window, double *x, double *y)
     }
 }
 
+/* The panel has taken something for itself, and looks different now. */
+static void uncover(struct turner_window *window)
+{
+    push(window, (struct turner_window_event){.kind = TURNER_WINDOW_UNCOVER});
+}
+
 static void on_key(GLFWwindow *glfw, int key, int scancode, int action, int mods)
 {
     struct turner_window *window = glfwGetWindowUserPointer(glfw);
@@ -45,19 +51,24 @@ static void on_key(GLFWwindow *glfw, int key, int scancode, int action, int mods
                                                   .key = key,
                                                   .mods = mods,
                                                   .again = action == GLFW_REPEAT});
+    else
+        uncover(window);
 }
 
 static void on_char(GLFWwindow *glfw, unsigned c)
 {
     turner_window_ui_char(glfw, c);
+    uncover(glfwGetWindowUserPointer(glfw));
 }
 
 static void on_button(GLFWwindow *glfw, int button, int action, int mods)
 {
     struct turner_window *window = glfwGetWindowUserPointer(glfw);
     turner_window_ui_button(glfw, button, action, mods);
-    if (action == GLFW_PRESS && turner_window_ui_wants_mouse())
+    if (action == GLFW_PRESS && turner_window_ui_wants_mouse()) {
+        uncover(window);
         return;
+    }
     struct turner_window_event event = {
         .kind = action == GLFW_PRESS ? TURNER_WINDOW_PRESS : TURNER_WINDOW_LIFT,
         .button = button,
@@ -78,7 +89,9 @@ static void on_scroll(GLFWwindow *glfw, double x, double y)
 {
     struct turner_window *window = glfwGetWindowUserPointer(glfw);
     turner_window_ui_scroll(glfw, x, y);
-    if (!turner_window_ui_wants_mouse())
+    if (turner_window_ui_wants_mouse())
+        uncover(window);
+    else
         push(window, (struct turner_window_event){.kind = TURNER_WINDOW_WHEEL, .y = y});
 }
 
@@ -100,8 +113,7 @@ static void on_close(GLFWwindow *glfw)
 
 static void on_refresh(GLFWwindow *glfw)
 {
-    push(glfwGetWindowUserPointer(glfw),
-         (struct turner_window_event){.kind = TURNER_WINDOW_UNCOVER});
+    uncover(glfwGetWindowUserPointer(glfw));
 }
 
 /* What GLFW last said of a failure. */
