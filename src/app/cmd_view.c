@@ -124,6 +124,18 @@ static enum turner_result write_picture(const char *path, const struct turner_sc
     return turner_picture_write(path, scene, image, statistics, NULL);
 }
 
+static enum turner_result read_scene(void *user, struct turner_scene **scene)
+{
+    const struct arguments *a = user;
+    TURNER_TRY(turner_scene_load(scene, a->scene));
+    enum turner_result result = turner_scene_options_apply(&a->options, *scene);
+    if (result != TURNER_OK) {
+        turner_scene_destroy(*scene);
+        *scene = NULL;
+    }
+    return result;
+}
+
 static int by_size(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
@@ -201,6 +213,8 @@ static enum turner_result load_and_view(struct arguments *a)
         .opening = &opening,
         .render = a->options.render,
         .write = write_picture,
+        .read = read_scene,
+        .reader = a,
         .output = a->output ? a->output : output,
         .start = a->start,
         .quiet = a->quiet,

@@ -40,6 +40,15 @@ static void show_toast(const struct turner_session *session, const struct turner
     ui->close();
 }
 
+static void show_alert(const struct turner_session *session, const struct turner_ui *ui)
+{
+    if (!session->alert[0])
+        return;
+    ui->open("##alert", 5, 44, true);
+    ui->alert(session->alert);
+    ui->close();
+}
+
 static void show_legend(const struct turner_session *session, const struct turner_ui *ui)
 {
     char text[256];
@@ -63,5 +72,6 @@ void turner_session_boxes(struct turner_session *session)
     if (session->keys)
         show_keys(ui);
     show_legend(session, ui);
+    show_alert(session, ui);
     show_toast(session, ui);
 }

@@ -118,14 +118,16 @@ static void hold(struct turner_session *session, int key, int mods, bool down)
 
 static void choose_camera(struct turner_session *session, int number)
 {
-    const struct turner_scene *scene = session->options->scene;
+    const struct turner_scene *scene = &session->scene;
     if ((size_t)number > scene->camera_count) {
         turner_session_say(session, "the scene has no camera %d; \"cameras\" in its file lists more",
                            number);
         return;
     }
     session->camera = number;
-    session->wish.camera = number ? scene->cameras[number - 1] : session->options->first;
+    session->wish.camera = number                       ? scene->cameras[number - 1]
+                           : session->options->camera ? session->options->first
+                                                      : session->home;
     session->changed = true;
 }
 

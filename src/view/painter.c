@@ -9,6 +9,7 @@
 
 #include "base/memory.h"
 
+#define POLL_SECONDS 0.1  /* files are looked at that often */
 #define REST_SECONDS 0.15 /* without another wish until a moving picture is taken to be at rest */
 
 /* ---- from the window's thread ---- */
@@ -214,27 +215,46 @@ static void fail(struct turner_painter *painter, enum turner_result result)
     painter->options.wake(painter->options.user);
 }
 
+/* Makes everything ready for the wish. A broken shader keeps the picture that is there. */
+static enum turner_result prepare(struct turner_painter *painter, const struct turner_wish *wish)
+{
+    turner_painter_take_scene(painter);
+    TURNER_TRY(turner_painter_take_paint(painter));
+    enum turner_result result = turner_painter_prepare(painter, wish);
+    bool broken = result == TURNER_BAD_INPUT || result == TURNER_USAGE;
+    painter->blind = broken && painter->count > 0;
+    if (!painter->blind && painter->watch.count > 1)
+        turner_watch_clear(&painter->watch); /* the renderer's own shaders are watched again */
+    if (!painter->blind)
+        return result;
+    turner_painter_say_alert(painter, turner_message());
+    return TURNER_OK;
+}
+
 static enum turner_result work(struct turner_painter *painter)
 {
     struct turner_wish wish;
-    bool fresh, waited = false;
+    bool fresh, waited = false, redraw;
     enum turner_stage stage = TURNER_STAGE_DONE;
     for (;;) {
-        double seconds = stage == TURNER_STAGE_DONE ? -1
+        double seconds = stage == TURNER_STAGE_DONE ? POLL_SECONDS
                          : stage == TURNER_STAGE_SINGLE && wish.moving && !waited ? REST_SECONDS
                                                                                   : 0;
         waited = true;
         if (!wait_for(painter, &wish, &fresh, stage == TURNER_STAGE_DONE, seconds))
             return TURNER_OK;
-        if (fresh) {
-            TURNER_TRY(turner_painter_take_paint(painter));
-            TURNER_TRY(turner_painter_prepare(painter, &wish));
-            stage = turner_painter_first(painter, &wish);
+        TURNER_TRY(turner_painter_poll(painter, &redraw));
+        if (fresh || redraw) {
+            TURNER_TRY(prepare(painter, &wish));
+            stage = painter->blind ? TURNER_STAGE_DONE : turner_painter_first(painter, &wish);
             waited = false;
         }
-        TURNER_TRY(answer_pick(painter));
+        if (painter->ready)
+            TURNER_TRY(answer_pick(painter));
         if (stage == TURNER_STAGE_DONE) {
-            write_shot(painter);
+            turner_painter_watch(painter);
+            if (painter->ready)
+                write_shot(painter);
             continue;
         }
         enum turner_result result = turner_painter_draw(painter, &wish, stage);
@@ -264,7 +284,7 @@ enum turner_result turner_painter_start(struct turner_painter *painter,
 {
     *painter = (struct turner_painter){
         .options = *options, .opening = opening, .scene = *scene, .wish = *first,
-        .fresh_wish = true};
+        .fresh_wish = true, .since = turner_watch_now()};
     pthread_condattr_t attributes;
     pthread_condattr_init(&attributes);
     pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
@@ -290,4 +310,8 @@ void turner_painter_stop(struct turner_painter *painter)
     free(painter->painted.lights);
     free(painter->shot);
     painter->shot = NULL;
+    turner_scene_destroy(painter->read);
+    turner_scene_destroy(painter->next);
+    turner_scene_destroy(painter->owned);
+    turner_watch_clear(&painter->watch);
 }

@@ -5,8 +5,10 @@
 
 #include <pthread.h>
 
+#include "base/watch.h"
 #include "image/codec.h"
 #include "render/opening.h"
+#include "render/reload.h"
 #include "scene/scene.h"
 #include "view/pace.h"
 
@@ -65,8 +67,15 @@ typedef enum turner_result (*turner_picture_writer)(const char *path,
                                                     const struct turner_image *image,
                                                     const struct turner_statistics *statistics);
 
+/* Reads the scene's file again, and does with it what the command line says. */
+typedef enum turner_result (*turner_scene_reader)(void *user, struct turner_scene **scene);
+
 struct turner_painter_options {
-    struct turner_render_options render;
+    struct turner_render_options render; /* with the scene's shaders, turner_shader_path_create */
+    const struct turner_render_options *asked; /* without */
+    const char *path; /* of the scene's file, which is watched, */
+    turner_scene_reader read;
+    void *reader;
     turner_picture_writer write;
     void (*wake)(void *user); /* there is something new; called in the painter's thread */
     void *user;
@@ -84,6 +93,10 @@ struct turner_painter {
     bool pick, fresh_picked, met;   /* what lies at a place is asked for; the answer is there */
     double pick_x, pick_y;
     struct turner_vec3 picked;
+    struct turner_scene *read, *next; /* from the file: to be looked at by the window, and what that
+                                         wants to be drawn from now on */
+    bool fresh_alert;
+    char alert[2048];               /* what is wrong with the files; "" when nothing is */
     struct turner_scene painted;    /* of which only materials and lights are there; */
     bool fresh_painted;             /* owned here, until they are taken */
     char *shot;                     /* NULL, or where the full picture is to be written */
@@ -102,6 +115,14 @@ struct turner_painter {
     struct turner_settings built;  /* the settings it was made with */
     bool ready;
     struct turner_pace pace;
+    struct turner_watch watch;     /* the scene's file, and shaders that could not be compiled */
+    struct turner_reload *reload;  /* of the renderer's shaders; NULL until it is at rest */
+    struct timespec since;         /* before the shaders were read */
+    struct turner_scene *owned;    /* NULL, or the one that `scene` is of */
+    double polled;                 /* when the files were last looked at in the middle of a picture */
+    bool file_changed;             /* they had */
+    bool blind;                    /* there is no renderer for the wish: a file is broken */
+    char file_alert[2048];         /* of the scene's file */
     struct turner_image quick, full, colors; /* the last: layers as colours */
     struct turner_sight own; /* being filled */
     struct turner_packer packer;
@@ -132,6 +153,17 @@ void turner_painter_shoot(struct turner_painter *painter, const char *path);
 /* Has the materials and lights of `scene` drawn, which has as many as that of the painter. */
 void turner_painter_paint(struct turner_painter *painter, const struct turner_scene *scene);
 
+/* A scene that was read again because its file changed, once, or NULL. It is the painter's: the
+ * window hands it back by turner_painter_show. */
+struct turner_scene *turner_painter_read(struct turner_painter *painter);
+/* Has it drawn, as the wish says, in place of the one before, which ceases to be. */
+void turner_painter_show(struct turner_painter *painter, struct turner_scene *scene,
+                         const struct turner_wish *wish);
+
+/* What is wrong with the scene or its shaders, as they are on disk, when that has changed; "": no
+ * more. */
+bool turner_painter_alert(struct turner_painter *painter, char alert[2048]);
+
 /* Asks for the point that is seen at (x, y) of the picture of the wish, in pixels. */
 void turner_painter_pick(struct turner_painter *painter, double x, double y);
 /* The answer, once: false as long as there is none. `met`: there is something. */
@@ -154,6 +186,15 @@ enum turner_stage turner_painter_next(const struct turner_wish *wish, enum turne
 /* Makes the renderer fit the settings of the wish. */
 enum turner_result turner_painter_prepare(struct turner_painter *painter,
                                           const struct turner_wish *wish);
+/* files.c, in the thread: begins to watch; looks at the files, `redraw` says that they changed. */
+void turner_painter_watch(struct turner_painter *painter);
+enum turner_result turner_painter_poll(struct turner_painter *painter, bool *redraw);
+bool turner_painter_outdated(struct turner_painter *painter); /* what is being drawn is */
+void turner_painter_unwatch(struct turner_painter *painter);
+void turner_painter_say_alert(struct turner_painter *painter, const char *alert);
+/* Takes what turner_painter_show left. */
+void turner_painter_take_scene(struct turner_painter *painter);
+
 /* Takes what turner_painter_paint left. */
 enum turner_result turner_painter_take_paint(struct turner_painter *painter);
 void turner_painter_clear(struct turner_painter *painter);

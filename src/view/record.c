@@ -24,7 +24,7 @@ void turner_session_name(char name[1024], const char *output, const char *ending
 
 void turner_session_print_camera(struct turner_session *session)
 {
-    char *json = turner_camera_json(&session->wish.camera, session->options->scene);
+    char *json = turner_camera_json(&session->wish.camera, &session->scene);
     puts(json);
     fflush(stdout);
     turner_session_say(session, "%s", json);
@@ -60,7 +60,7 @@ void turner_session_record(struct turner_session *session)
     }
     add_camera(session); /* where it came to rest */
     turner_session_name(name, session->options->output, "-path.json");
-    if (turner_camera_path_write(path, name, session->options->scene) == TURNER_OK)
+    if (turner_camera_path_write(path, name, &session->scene) == TURNER_OK)
         turner_session_say(session, "%zu cameras in %s; draw them with turner render --path",
                            path->count, name);
     else

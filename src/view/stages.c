@@ -23,6 +23,7 @@
 
 void turner_painter_clear(struct turner_painter *painter)
 {
+    turner_painter_unwatch(painter);
     turner_renderer_destroy(&painter->renderer);
     turner_kernel_destroy(&painter->kernel);
     turner_image_destroy(&painter->quick);
@@ -60,13 +61,17 @@ static enum turner_result create(struct turner_painter *painter)
     struct turner_gpu *gpu = &painter->opening->gpu;
     const struct turner_methods *methods = &painter->scene.settings.methods;
     *made = (struct turner_statistics){0};
-    if (!painter->kernel.spirv.words) {
+    if (painter->reload) /* its files may have changed since */
+        turner_kernel_destroy(&painter->kernel);
+    turner_painter_unwatch(painter);
+    painter->since = turner_watch_now();
+    if (!painter->count) {
         TURNER_TRY(turner_opening_compile(&painter->kernel, painter->opening, methods, options,
                                           made));
     } else {
         unsigned kind;
         TURNER_TRY(turner_choose_kernel(&kind, &gpu->info, methods, options->traversal));
-        if (kind != painter->kernel.kind) {
+        if (kind != painter->kernel.kind || !painter->kernel.spirv.words) {
             turner_kernel_destroy(&painter->kernel);
             TURNER_TRY(turner_kernel_create(&painter->kernel, kind, options));
         }
@@ -230,6 +235,7 @@ static bool progress(double share, void *user)
     if (drawing->stage == TURNER_STAGE_QUICK)
         return !quit; /* soon finished: a frame that is given up is one that is missed */
     double now = turner_seconds();
+    go_on = go_on && !turner_painter_outdated(painter);
     if (go_on && share < 1 && drawing->image && now - painter->shown > PART_SECONDS &&
         now - painter->started > PART_FIRST)
         publish(painter, drawing->image, drawing->settings, drawing->stage, share);

@@ -201,6 +201,40 @@ static void take_pick(struct turner_session *session)
     }
 }
 
+static bool same_camera(const struct turner_camera *a, const struct turner_camera *b)
+{
+    return memcmp(&a->from, &b->from, sizeof a->from) == 0 &&
+           memcmp(&a->at, &b->at, sizeof a->at) == 0 &&
+           memcmp(&a->up, &b->up, sizeof a->up) == 0 && a->vfov == b->vfov &&
+           a->inside_count == b->inside_count &&
+           memcmp(a->inside, b->inside, a->inside_count * sizeof *a->inside) == 0;
+}
+
+/* The file was saved: what it says anew counts; the view stays where its camera is the old one. */
+static void take_scene(struct turner_session *session)
+{
+    struct turner_scene *scene = turner_painter_read(&session->painter);
+    if (!scene)
+        return;
+    struct turner_wish *wish = &session->wish;
+    int width = wish->settings.width, height = wish->settings.height;
+    if (!same_camera(&scene->camera, &session->home)) {
+        wish->camera = session->home = scene->camera;
+        session->camera = session->options->camera;
+    }
+    wish->camera.inside_count = scene->camera.inside_count; /* numbers of media may be others */
+    memcpy(wish->camera.inside, scene->camera.inside, sizeof scene->camera.inside);
+    wish->settings = scene->settings;
+    wish->settings.width = width;
+    wish->settings.height = height;
+    wish->moving = false;
+    turner_panel_close(session);
+    session->scene = *scene;
+    session->material = session->light = 0;
+    session->changed = session->moving = session->painted = false;
+    turner_painter_show(&session->painter, scene, wish);
+}
+
 static enum turner_result loop(struct turner_session *session)
 {
     const struct turner_window_functions *functions = session->functions;
@@ -221,6 +255,9 @@ static enum turner_result loop(struct turner_session *session)
         bool fresh = turner_painter_take(&session->painter, &session->sight);
         TURNER_TRY(turner_painter_result(&session->painter));
         take_pick(session);
+        take_scene(session);
+        if (turner_painter_alert(&session->painter, session->alert))
+            session->dirty = true;
         if (turner_painter_reply(&session->painter, reply))
             turner_session_say(session, "%s", reply);
         end_toast(session);
@@ -292,7 +329,10 @@ enum turner_result turner_view(const struct turner_view_options *options,
         .clock = turner_seconds(),
     };
     struct doorbell bell = {.mutex = PTHREAD_MUTEX_INITIALIZER};
-    struct turner_painter_options painter = {options->render, options->write, ring, &bell};
+    struct turner_painter_options painter = {
+        .render = options->render, .asked = &options->render, .path = options->path,
+        .read = options->read, .reader = options->reader, .write = options->write,
+        .wake = ring, .user = &bell};
     struct turner_shader_path path;
     *report = (struct turner_view_report){0};
     TURNER_TRY(turner_signals_start());

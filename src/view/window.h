@@ -64,7 +64,7 @@ enum turner_window_result {
 struct turner_ui {
     /* A frame of the panel: widgets stand between `begin` and turner_window_functions.show. */
     void (*begin)(struct turner_window *window);
-    /* A box at the left (place 0), right (1), bottom left (2), middle (3) or top right (4); false:
+    /* A box at the left (place 0), right (1), bottom left (2), middle (3), top right (4) or bottom middle (5); false:
      * folded. Each `open` has its `close`. `width` 0: as wide as what is in it. */
     bool (*open)(const char *title, int place, float width, bool plain);
     void (*close)(void);

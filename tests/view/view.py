@@ -7,6 +7,7 @@ import json
 import math
 import os
 import pathlib
+import shutil
 import signal
 import sys
 import tempfile
@@ -38,7 +39,7 @@ def test(function):
 
 def opened(screen, *arguments):
     """A view of the scene that has come to rest; what it shows is what turner render draws."""
-    wanted = ppm_pixels(render("scene.json", "wanted.ppm"))
+    wanted = ppm_pixels(render("scene.json", "wanted.ppm", *arguments))
     view = View(screen, "scene.json", "-q", *arguments).find()
     view.wait_for_picture(*wanted)
     return view
@@ -260,6 +261,52 @@ def panel(screen):
 
 
 @test
+def files(screen):
+    """Saving the scene or a shader shows it; a broken one keeps the picture and says what is wrong."""
+    view = opened(screen, "--size", "640x480")
+    size = (640, 480)
+    def upper(pixels):  # above what is said of a broken file
+        return pixels[:3 * 640 * 240]
+    def seen(what):
+        wanted = upper(ppm_pixels(render("scene.json", "wanted.ppm", "--size", "640x480"))[2])
+        wait_until(what, lambda: upper(screen.shown(*size)) == wanted)
+        return wanted
+    def save(name, text):
+        path = pathlib.Path(name)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        aside = pathlib.Path(name + ".new")  # as editors do
+        aside.write_text(text)
+        aside.rename(path)
+    seen("the picture")
+    colour = SCENE.replace("#d02020", "#20d020")
+    save("scene.json", colour)
+    seen("another colour")
+    moved = colour.replace("[-0.8, 0.4, 0]", "[-0.9, 0.5, 0]")
+    save("scene.json", moved)
+    good = seen("a sphere that moved")
+    save("scene.json", moved.replace("sphere", "spere", 1))
+    wait_until("the message", lambda: screen.shown(*size)[3 * 640 * 400:] !=
+               ppm_pixels(pathlib.Path("wanted.ppm").read_bytes())[2][3 * 640 * 400:])
+    assert upper(screen.shown(*size)) == good, "the picture stays"
+    save("scene.json", moved)
+    wait_until("no message", lambda: screen.shown(*size) ==
+               ppm_pixels(pathlib.Path("wanted.ppm").read_bytes())[2])
+    save("scene.json", moved.replace("[0, 1, 5]", "[1, 1, 5]"))
+    seen("another camera")
+
+    hook = "vec3 user_background(vec3 direction)\n{\n    return vec3(%s);\n}\n"
+    save("shaders/user/background.glsl", hook % "0.2, 0.7, 0.3")
+    green = seen("a background of one's own")
+    save("shaders/user/background.glsl", hook % "0.2, 0.7, ")
+    wait_until("the message", lambda: screen.shown(*size)[3 * 640 * 400:] !=
+               ppm_pixels(pathlib.Path("wanted.ppm").read_bytes())[2][3 * 640 * 400:])
+    assert upper(screen.shown(*size)) == green, "the picture stays"
+    save("shaders/user/background.glsl", hook % "0.7, 0.2, 0.3")
+    seen("it is mended")
+    view.quit()
+
+
+@test
 def cameras(screen):
     """Cameras of the scene, one written into its file, a path recorded and drawn."""
     text = SCENE.replace('"background"', """"cameras": [{"at": [0,0.5,0],   "from": [5,1,0.50]},
@@ -319,9 +366,7 @@ def main():
         if screen:
             screen.close()
         os.chdir("/")
-        for path in folder.iterdir():
-            path.unlink()
-        folder.rmdir()
+        shutil.rmtree(folder)
     return 0
 
 

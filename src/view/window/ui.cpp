@@ -216,7 +216,8 @@ void turner_window_ui_enter(GLFWwindow *glfw, int entered)
 
 static bool open_box(const char *title, int place, float width, bool plain)
 {
-    static const float across[] = {0, 1, 0, 0.5f, 1}, down[] = {0, 0, 1, 0.5f, 0};
+    static const float across[] = {0, 1, 0, 0.5f, 1, 0.5f};
+    static const float down[] = {0, 0, 1, 0.5f, 0, 1};
     ImVec2 size = ImGui::GetIO().DisplaySize;
     float gap = margin * ImGui::GetFontSize() / 14;
     ImVec2 at(gap + across[place] * (size.x - 2 * gap), gap + down[place] * (size.y - 2 * gap));
@@ -234,7 +235,7 @@ static bool open_box(const char *title, int place, float width, bool plain)
         flags |= ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs;
     else if (!moves)
         flags |= ImGuiWindowFlags_NoMove;
-    wraps = !plain && width > 0;
+    wraps = width > 0;
     column = 0.42f * wide;
     bool shown = ImGui::Begin(title, nullptr, flags);
     ImGui::PushItemWidth(width > 0 ? -0.42f * wide : 0);
