@@ -90,8 +90,9 @@ static enum turner_result make_part(struct part *part, struct turner_gpu *gpu,
     TURNER_TRY(no_cache ? turner_spirv_reduce(&special, &kernel->spirv, constants, count)
                         : turner_spirv_reduce_cached(&special, NULL, &kernel->spirv, constants,
                                                      count));
-    enum turner_result result =
-        turner_program_create(&part->program, gpu, &special, NULL, 0, VK_NULL_HANDLE);
+    enum turner_result result = turner_spirv_validate(&special); /* half of what it was */
+    if (result == TURNER_OK)
+        result = turner_program_create(&part->program, gpu, &special, NULL, 0, VK_NULL_HANDLE);
     turner_spirv_destroy(&special);
     return result;
 }
@@ -108,7 +109,6 @@ static enum turner_result make(const struct work *work)
 {
     struct build *build = work->build;
     TURNER_TRY(turner_kernel_compile(&build->kernel, work->kind, &build->source, work->no_cache));
-    TURNER_TRY(turner_spirv_validate(&build->kernel.spirv));
     for (int i = 0; i < build->part_count; i++)
         TURNER_TRY(make_part(&build->parts[i], work->gpu, &build->kernel, work->scene,
                              work->no_cache));

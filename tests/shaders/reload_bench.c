@@ -12,7 +12,7 @@ static void remove_all(const char *folder)
         fprintf(stderr, "%s cannot be removed\n", folder);
 }
 
-void bench_open(struct reload_bench *bench, const char *scene, bool no_cache)
+void bench_open(struct reload_bench *bench, const char *scene, bool no_cache, bool validation)
 {
     struct turner_statistics statistics = {0};
     char user[96];
@@ -24,8 +24,15 @@ void bench_open(struct reload_bench *bench, const char *scene, bool no_cache)
     const char *const dirs[] = {bench->folder};
     const struct turner_render_options options = {
         .shader_dirs = dirs, .shader_dir_count = 1, .no_cache = no_cache};
-    open_device(&bench->gpu);
-    assert_ok(turner_scene_parse(&bench->scene, scene, strlen(scene), "test.json"));
+    if (validation)
+        open_device(&bench->gpu);
+    else
+        assert_ok(turner_gpu_create(&bench->gpu, NULL, false));
+    if (*scene == '{')
+        assert_ok(turner_scene_parse(&bench->scene, scene, strlen(scene), "test.json"));
+    else
+        assert_ok(turner_scene_load(&bench->scene, scene));
+    bench->scene->settings.width = bench->scene->settings.height = 8;
     struct timespec since = turner_watch_now();
     assert_ok(turner_choose_kernel(&kind, &bench->gpu.info, &bench->scene->settings.methods,
                                    TURNER_TRAVERSAL_AUTO));

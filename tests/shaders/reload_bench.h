@@ -15,9 +15,10 @@ struct reload_bench {
     char folder[64]; /* of shaders; user/ is in it */
 };
 
-/* Opens the device (exits with 77 without one) and draws nothing yet. `no_cache`: shaders are
- * compiled each time. */
-void bench_open(struct reload_bench *bench, const char *scene, bool no_cache);
+/* Opens the device (exits with 77 without one) and draws nothing yet. `scene` is JSON, or a file.
+ * `no_cache`: shaders are
+ * compiled each time. The picture is of 8×8 pixels. */
+void bench_open(struct reload_bench *bench, const char *scene, bool no_cache, bool validation);
 /* The number of failures, the device's too. */
 int bench_close(struct reload_bench *bench, int failures);
 

@@ -183,6 +183,6 @@ int main(void)
         cmocka_unit_test(sets_parameters),
         cmocka_unit_test(survives_random_edits),
     };
-    bench_open(&bench, SCENE, false);
+    bench_open(&bench, SCENE, false, true);
     return bench_close(&bench, cmocka_run_group_tests(tests, NULL, NULL));
 }
