@@ -8,6 +8,7 @@
 
 enum turner_result turner_cmd_render(int argc, char **argv);
 enum turner_result turner_cmd_compare(int argc, char **argv);
+enum turner_result turner_cmd_compare_shaders(int argc, char **argv);
 enum turner_result turner_cmd_check(int argc, char **argv);
 enum turner_result turner_cmd_chart(int argc, char **argv);
 enum turner_result turner_cmd_explain(int argc, char **argv);

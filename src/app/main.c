@@ -16,6 +16,8 @@ static const struct {
     {"render", "draw a scene into a picture", turner_cmd_render},
     {"view", "show a scene in a window, and move through it", turner_cmd_view},
     {"compare", "say how much two pictures differ", turner_cmd_compare},
+    {"compare-shaders", "say how two folders of shaders differ in speed and picture",
+     turner_cmd_compare_shaders},
     {"explain", "list the rays that made a pixel, and where they go wrong", turner_cmd_explain},
     {"check", "read scenes or shaders and say what is wrong with them", turner_cmd_check},
     {"chart", "chart speed against accuracy for a grid of settings", turner_cmd_chart},
@@ -34,7 +36,7 @@ static void print_help(FILE *out)
                  "and says how fast and how wrong.\n\n"
                  "Usage: turner COMMAND [ARGUMENT]…\n\nCommands:\n", turner_version());
     for (int i = 0; i < command_count; i++)
-        fprintf(out, "  %-9s %s\n", commands[i].name, commands[i].summary);
+        fprintf(out, "  %-15s %s\n", commands[i].name, commands[i].summary);
     fprintf(out, "\nTry: turner render scenes/whitted1980.json -o picture.png\n"
                  "Each command explains itself: turner render --help\n\n"
                  "Exit status: 0 done; 1 pictures differ or a check failed; 2 wrong command line; "

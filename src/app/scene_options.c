@@ -90,6 +90,13 @@ enum turner_result turner_scene_option_take(struct turner_scene_options *o, int 
 enum turner_result turner_scene_options_apply(const struct turner_scene_options *o,
                                               struct turner_scene *scene)
 {
+    TURNER_TRY(turner_scene_options_settings(o, scene));
+    return turner_scene_options_settle(o, scene);
+}
+
+enum turner_result turner_scene_options_settings(const struct turner_scene_options *o,
+                                                 struct turner_scene *scene)
+{
     struct turner_settings *s = &scene->settings;
     bool asked = o->spp || o->depth >= 0 || !isnan(o->cutoff);
     if (o->camera)
@@ -121,7 +128,6 @@ enum turner_result turner_scene_options_apply(const struct turner_scene_options 
         s->transfer = (enum turner_transfer)o->transfer;
     s->spd_rays = s->spd_rays || o->spd_rays;
     s->spd_grid = s->spd_grid || o->spd_grid;
-    TURNER_TRY(turner_scene_options_settle(o, scene));
     return turner_scene_validate(scene);
 }
 

@@ -61,6 +61,10 @@ enum turner_result turner_scene_option_take(struct turner_scene_options *options
 enum turner_result turner_scene_options_apply(const struct turner_scene_options *options,
                                               struct turner_scene *scene);
 
+/* The settings alone. */
+enum turner_result turner_scene_options_settings(const struct turner_scene_options *options,
+                                                 struct turner_scene *scene);
+
 /* Gives the scene the values of --set, and each other parameter of its shaders the default.
  * TURNER_USAGE for what no shader has, or does not fit. */
 enum turner_result turner_scene_options_settle(const struct turner_scene_options *options,

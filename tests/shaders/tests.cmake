@@ -29,3 +29,4 @@ add_test(NAME shaders_reload COMMAND test_reload)
 set_tests_properties(shaders_reload PROPERTIES LABELS device SKIP_RETURN_CODE 77 TIMEOUT 300
     ENVIRONMENT "MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/shaders_reload")
 turner_shader_test(watch watch.py shaders scene hard)
+turner_shader_test(compare compare.py differences errors)
