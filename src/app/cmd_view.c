@@ -9,10 +9,15 @@
 
 #include <cjson/cJSON.h>
 
+#include "app/explain.h"
 #include "image/atomic.h"
 #include "image/image.h"
+#include "reference/reference.h"
+#include "render/explain.h"
 #include "render/renderer.h"
 #include "view/view.h"
+
+#define EXPLAIN_BITS 10 /* rays that agree in fewer part, as turner explain has it */
 
 static void print_help(void)
 {
@@ -26,6 +31,7 @@ static void print_help(void)
          "  wheel                   nearer, farther\n"
          "  arrows, Page up, down   fly; Shift faster, Ctrl slower\n"
          "  double click            look at what is there\n"
+         "  Ctrl+click              the rays of that pixel, as turner explain prints them\n"
          "  Home; 0 1 … 9           back to where it began; the scene's cameras\n"
          "  C; Shift+C              print the camera as JSON; write it into the scene file\n"
          "  R                       record a path of cameras, and end it: turner render --path draws it\n"
@@ -136,6 +142,34 @@ static enum turner_result read_scene(void *user, struct turner_scene **scene)
     return result;
 }
 
+/* As turner explain does it, in the middle of the pixel. */
+static enum turner_result explain_pixel(FILE *out, const struct turner_scene *scene,
+                                        const struct turner_render_options *options, int x, int y)
+{
+    struct turner_explanation explanation = {.scene = scene, .x = x, .y = y};
+    struct turner_ray_tree device = {0}, reference = {0};
+    struct turner_recorder recorder = {0};
+    enum turner_result result;
+    turner_sample_position(&explanation.sample_x, &explanation.sample_y, 0, 1);
+    TURNER_TRY_DONE(turner_reference_explain(&reference, scene, x + explanation.sample_x,
+                                             y + explanation.sample_y));
+    TURNER_TRY_DONE(turner_recorder_create(&recorder, scene, options));
+    TURNER_TRY_DONE(turner_recorder_trace(&device, &recorder, x, y, explanation.sample_x,
+                                          explanation.sample_y));
+    explanation.device = recorder.gpu.info.name;
+    explanation.driver = recorder.gpu.info.driver;
+    explanation.traversal = turner_traversal_name(recorder.kind);
+    explanation.precision = recorder.kind & TURNER_F64 ? "f64" : "f32";
+    turner_rays_compare(&explanation.comparison, &device, &reference, EXPLAIN_BITS);
+    turner_explain_text(out, &explanation);
+done:
+    turner_rays_destroy(&explanation.comparison);
+    turner_recorder_destroy(&recorder);
+    turner_ray_tree_destroy(&device);
+    turner_ray_tree_destroy(&reference);
+    return result;
+}
+
 static int by_size(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
@@ -213,6 +247,7 @@ static enum turner_result load_and_view(struct arguments *a)
         .opening = &opening,
         .render = a->options.render,
         .write = write_picture,
+        .explain = explain_pixel,
         .read = read_scene,
         .reader = a,
         .output = a->output ? a->output : output,

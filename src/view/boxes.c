@@ -10,6 +10,7 @@ static const char *const keys[][2] = {
     {"wheel", "nearer, farther"},
     {"arrows, Page up, Page down", "fly (Shift faster, Ctrl slower)"},
     {"double click", "look at what is there"},
+    {"Ctrl+click", "the rays of that pixel, as turner explain; Esc closes it"},
     {"Home", "back to where it began"},
     {"0 1 … 9", "the scene's cameras"},
     {"C", "print the camera as JSON"},
@@ -71,6 +72,11 @@ void turner_session_boxes(struct turner_session *session)
         turner_panel(session);
     if (session->keys)
         show_keys(ui);
+    if (session->explanation) {
+        if (ui->open("Rays of a pixel", 1, 48, false))
+            ui->text(session->explanation);
+        ui->close();
+    }
     show_legend(session, ui);
     show_alert(session, ui);
     show_toast(session, ui);

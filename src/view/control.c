@@ -1,6 +1,7 @@
 /* Mouse and keys. docs/view.md and the help of F1 (boxes.c) list them, too. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define GLFW_INCLUDE_NONE
@@ -32,6 +33,12 @@ static void press(struct turner_session *session, const struct turner_window_eve
                 fabs(event->y - session->click_y) < CLICK_PIXELS;
     session->x = event->x;
     session->y = event->y;
+    if (event->button == GLFW_MOUSE_BUTTON_LEFT && event->mods & GLFW_MOD_CONTROL) {
+        turner_painter_explain(&session->painter, event->x, event->y);
+        turner_session_say(session, "following the rays of pixel %d,%d", (int)event->x,
+                           (int)event->y);
+        return;
+    }
     if (event->button == GLFW_MOUSE_BUTTON_LEFT && event->mods == 0) {
         if (near && now - session->click < CLICK_SECONDS)
             turner_painter_pick(&session->painter, event->x, event->y);
@@ -139,6 +146,10 @@ static void key(struct turner_session *session, const struct turner_window_event
         return;
     switch (event->key) {
     case GLFW_KEY_ESCAPE:
+        session->quit = !session->explanation;
+        free(session->explanation);
+        session->explanation = NULL;
+        break;
     case GLFW_KEY_Q: session->quit = true; break;
     case GLFW_KEY_F1: session->keys = !session->keys; break;
     case GLFW_KEY_TAB:

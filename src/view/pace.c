@@ -5,6 +5,10 @@
 #include <string.h>
 
 #define LEAST_SCALE 0.03
+#define SLOW_INTERVAL 0.0325 /* seconds */
+#define GOOD_INTERVAL 0.030
+#define LEAST_SECONDS 0.012
+#define MOST_SECONDS 0.029
 #define HOLD 0.12 /* a change of scale by less is not worth the flicker */
 #define PATIENCE 15 /* frames */
 #define SPARE 0.7 /* of the time of a frame: so much is left over that more can be tried */
@@ -15,13 +19,14 @@ void turner_pace_start(struct turner_pace *pace, int depth)
     static const struct {
         int depth;
         double least;
-    } rungs[] = {{4, 0.5}, {2, 0.4}, {1, 0.25}, {0, LEAST_SCALE}};
+    } rungs[] = {{4, 0.22}, {2, 0.17}, {1, LEAST_SCALE}}; /* at 0 mirrors are black */
     memset(pace, 0, sizeof *pace);
     pace->depth[0] = depth;
-    pace->least[0] = 0.5;
+    pace->least[0] = 0.25;
     pace->rungs = 1;
+    pace->seconds = TURNER_PACE_SECONDS;
     pace->patience = PATIENCE;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 3; i++) {
         if (rungs[i].depth >= depth)
             continue;
         pace->depth[pace->rungs] = rungs[i].depth;
@@ -58,7 +63,7 @@ void turner_pace_choose(struct turner_pace *pace, int full_width, int full_heigh
     for (; rung < pace->rungs; rung++) {
         double cost = cost_of(pace, rung);
         /* nothing is known: the first frame ever, which is to come at once */
-        scale = cost > 0 ? sqrt(TURNER_PACE_SECONDS / (cost * pixels)) : 0.25;
+        scale = cost > 0 ? sqrt(pace->seconds / (cost * pixels)) : 0.25;
         /* what was given up comes back when there is room for it with some to spare */
         double least = pace->least[rung] * (rung < pace->rung ? 1 + HOLD : 1);
         if (scale >= least || cost == 0 || rung == pace->rungs - 1)
@@ -82,11 +87,11 @@ void turner_pace_choose(struct turner_pace *pace, int full_width, int full_heigh
 static void probe(struct turner_pace *pace, int rung, double seconds)
 {
     if (pace->probed == rung + 1) {
-        bool vain = seconds > TURNER_PACE_SECONDS;
+        bool vain = seconds > pace->seconds;
         pace->patience = !vain ? PATIENCE : pace->patience < 1000 ? 2 * pace->patience : 1000;
     }
     pace->probed = 0;
-    bool spare = rung > 0 && pace->scale == 1 && seconds < SPARE * TURNER_PACE_SECONDS;
+    bool spare = rung > 0 && pace->scale == 1 && seconds < SPARE * pace->seconds;
     pace->spare = spare ? pace->spare + 1 : 0;
     if (pace->spare < pace->patience)
         return;
@@ -114,4 +119,12 @@ void turner_pace_took(struct turner_pace *pace, int depth, double pixels, double
         pace->measured = i + 1;
         probe(pace, i, seconds);
     }
+}
+
+void turner_pace_seen(struct turner_pace *pace, double interval)
+{
+    if (interval > SLOW_INTERVAL)
+        pace->seconds = fmax(pace->seconds * 0.97, LEAST_SECONDS);
+    else if (interval < GOOD_INTERVAL)
+        pace->seconds = fmin(pace->seconds * 1.01, MOST_SECONDS);
 }

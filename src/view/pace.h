@@ -2,12 +2,14 @@
 #ifndef TURNER_VIEW_PACE_H
 #define TURNER_VIEW_PACE_H
 
-#define TURNER_PACE_SECONDS 0.026 /* of a frame, to trace; the rest of 1/30 s is for showing it */
-#define TURNER_PACE_RUNGS 5
+#define TURNER_PACE_SECONDS 0.026 /* of a frame, to trace, at first; the rest of 1/30 s is for
+                                     showing it */
+#define TURNER_PACE_RUNGS 4
 
-/* What is given up, and in which order: first resolution down to a half, then depth, then what is
+/* What is given up, and in which order: first resolution down to a quarter, then depth, then what is
  * left of resolution. Costs are of a pixel, measured; 0: not known yet. */
 struct turner_pace {
+    double seconds; /* of a frame, to trace */
     int rungs;
     int depth[TURNER_PACE_RUNGS]; /* falling */
     double least[TURNER_PACE_RUNGS]; /* of the size of the picture, as long as it is at this depth */
@@ -26,6 +28,10 @@ void turner_pace_start(struct turner_pace *pace, int depth);
 /* Size and depth of the next frame of a picture of full_width × full_height; at least 1 × 1. */
 void turner_pace_choose(struct turner_pace *pace, int full_width, int full_height, int *width,
                         int *height, int *depth);
+
+/* Frames follow each other in so many seconds: when that is above 1/30 s there is less time to trace,
+ * when it is well below there is more. */
+void turner_pace_seen(struct turner_pace *pace, double interval);
 
 /* A picture of so many pixels was traced to `depth` in so many seconds. */
 void turner_pace_took(struct turner_pace *pace, int depth, double pixels, double seconds);

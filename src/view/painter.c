@@ -79,14 +79,34 @@ void turner_painter_paint(struct turner_painter *painter, const struct turner_sc
     pthread_mutex_unlock(&painter->mutex);
 }
 
-void turner_painter_pick(struct turner_painter *painter, double x, double y)
+static void ask(struct turner_painter *painter, double x, double y, bool explain)
 {
     pthread_mutex_lock(&painter->mutex);
     painter->pick = true;
+    painter->explain = explain;
     painter->pick_x = x;
     painter->pick_y = y;
     pthread_cond_signal(&painter->changed);
     pthread_mutex_unlock(&painter->mutex);
+}
+
+void turner_painter_pick(struct turner_painter *painter, double x, double y)
+{
+    ask(painter, x, y, false);
+}
+
+void turner_painter_explain(struct turner_painter *painter, double x, double y)
+{
+    ask(painter, x, y, true);
+}
+
+char *turner_painter_explained(struct turner_painter *painter)
+{
+    pthread_mutex_lock(&painter->mutex);
+    char *text = painter->explanation;
+    painter->explanation = NULL;
+    pthread_mutex_unlock(&painter->mutex);
+    return text;
 }
 
 bool turner_painter_picked(struct turner_painter *painter, struct turner_vec3 *point, bool *met)
@@ -157,16 +177,39 @@ static void write_shot(struct turner_painter *painter)
     say(painter, text);
 }
 
+static void explain(struct turner_painter *painter, double x, double y)
+{
+    char *text = NULL;
+    size_t size;
+    struct turner_scene scene = painter->scene;
+    scene.settings.error = 0; /* one tree, of the depth and cutoff that both sides can follow */
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return;
+    if (painter->options.explain(out, &scene, &painter->options.render, (int)x, (int)y) !=
+        TURNER_OK)
+        fprintf(out, "%s\n", turner_message());
+    fclose(out);
+    pthread_mutex_lock(&painter->mutex);
+    free(painter->explanation);
+    painter->explanation = text;
+    pthread_mutex_unlock(&painter->mutex);
+    painter->options.wake(painter->options.user);
+}
+
 static enum turner_result answer_pick(struct turner_painter *painter)
 {
     struct turner_vec3 point;
-    bool met, asked;
+    bool met, asked, explains;
     pthread_mutex_lock(&painter->mutex);
     asked = painter->pick;
+    explains = painter->explain;
     painter->pick = false;
     double x = painter->pick_x, y = painter->pick_y;
     pthread_mutex_unlock(&painter->mutex);
-    if (!asked)
+    if (asked && explains)
+        explain(painter, x, y);
+    if (!asked || explains)
         return TURNER_OK;
     TURNER_TRY(turner_painter_meet(painter, x, y, &point, &met));
     pthread_mutex_lock(&painter->mutex);
@@ -309,7 +352,8 @@ void turner_painter_stop(struct turner_painter *painter)
     free(painter->painted.materials);
     free(painter->painted.lights);
     free(painter->shot);
-    painter->shot = NULL;
+    free(painter->explanation);
+    painter->shot = painter->explanation = NULL;
     turner_scene_destroy(painter->read);
     turner_scene_destroy(painter->next);
     turner_scene_destroy(painter->owned);

@@ -4,6 +4,7 @@
 #define TURNER_VIEW_PAINTER_H
 
 #include <pthread.h>
+#include <stdio.h>
 
 #include "base/watch.h"
 #include "image/codec.h"
@@ -32,6 +33,7 @@ struct turner_wish {
     enum turner_seen seen;
     struct turner_camera camera;
     struct turner_settings settings;
+    double interval; /* of the frames that were shown last, seconds; 0: not known */
     bool moving; /* there is more to come: wait a little before going on to better pictures */
 };
 
@@ -70,7 +72,13 @@ typedef enum turner_result (*turner_picture_writer)(const char *path,
 /* Reads the scene's file again, and does with it what the command line says. */
 typedef enum turner_result (*turner_scene_reader)(void *user, struct turner_scene **scene);
 
+/* Writes what turner explain says of the middle of pixel (x, y). */
+typedef enum turner_result (*turner_pixel_explainer)(FILE *out, const struct turner_scene *scene,
+                                                     const struct turner_render_options *options,
+                                                     int x, int y);
+
 struct turner_painter_options {
+    turner_pixel_explainer explain;
     struct turner_render_options render; /* with the scene's shaders, turner_shader_path_create */
     const struct turner_render_options *asked; /* without */
     const char *path; /* of the scene's file, which is watched, */
@@ -90,6 +98,8 @@ struct turner_painter {
     bool quit, fresh_wish, fresh_sight;
     struct turner_wish wish;
     struct turner_sight sight;      /* the newest, to be taken */
+    bool explain;                   /* the pick is of what turner explain says */
+    char *explanation;              /* that, to be taken */
     bool pick, fresh_picked, met;   /* what lies at a place is asked for; the answer is there */
     double pick_x, pick_y;
     struct turner_vec3 picked;
@@ -166,6 +176,9 @@ bool turner_painter_alert(struct turner_painter *painter, char alert[2048]);
 
 /* Asks for the point that is seen at (x, y) of the picture of the wish, in pixels. */
 void turner_painter_pick(struct turner_painter *painter, double x, double y);
+/* The same for what turner explain says; turner_painter_explained returns it, once, to be freed. */
+void turner_painter_explain(struct turner_painter *painter, double x, double y);
+char *turner_painter_explained(struct turner_painter *painter);
 /* The answer, once: false as long as there is none. `met`: there is something. */
 bool turner_painter_picked(struct turner_painter *painter, struct turner_vec3 *point, bool *met);
 

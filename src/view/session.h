@@ -34,6 +34,7 @@ struct turner_session {
     double clock;               /* when the camera was last moved by keys or by itself */
 
     struct turner_scene scene;  /* as the panel has changed it: shares all but, once `owns`, */
+    char *explanation;          /* of a pixel, that is shown; or NULL */
     char alert[2048];           /* what is wrong with the files, or "" */
     bool owns;                  /* materials and lights */
     bool painted;               /* the painter is to have them */

@@ -398,6 +398,8 @@ enum turner_result turner_painter_draw(struct turner_painter *painter,
     bool last = whole || turner_painter_next(wish, stage) == TURNER_STAGE_DONE;
     painter->count++;
     publish(painter, image, &settings, last ? TURNER_STAGE_DONE : stage, 1);
+    if (stage == TURNER_STAGE_QUICK && wish->interval > 0)
+        turner_pace_seen(&painter->pace, wish->interval);
     if (stage == TURNER_STAGE_QUICK)
         turner_pace_took(&painter->pace, settings.depth,
                          (double)settings.width * settings.height, painter->own.seconds);

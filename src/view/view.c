@@ -61,9 +61,12 @@ static void count_moved(struct turner_session *session, double now)
         *TURNER_PUSH(report->intervals, count, session->interval_room) = since;
         report->moved = (unsigned)count;
         report->moved_seconds += since;
+        session->wish.interval = since;
         report->scale += (double)session->sight.width / session->wish.settings.width;
         report->depth += session->sight.settings.depth;
     }
+    if (!moved)
+        session->wish.interval = 0;
     session->last_moved = moved ? now : 0;
 }
 
@@ -201,6 +204,19 @@ static void take_pick(struct turner_session *session)
     }
 }
 
+static void take_explanation(struct turner_session *session)
+{
+    char *text = turner_painter_explained(&session->painter);
+    if (!text)
+        return;
+    fputs(text, stdout);
+    fflush(stdout);
+    free(session->explanation);
+    session->explanation = text;
+    session->toast_end = 0;
+    session->dirty = true;
+}
+
 static bool same_camera(const struct turner_camera *a, const struct turner_camera *b)
 {
     return memcmp(&a->from, &b->from, sizeof a->from) == 0 &&
@@ -255,6 +271,7 @@ static enum turner_result loop(struct turner_session *session)
         bool fresh = turner_painter_take(&session->painter, &session->sight);
         TURNER_TRY(turner_painter_result(&session->painter));
         take_pick(session);
+        take_explanation(session);
         take_scene(session);
         if (turner_painter_alert(&session->painter, session->alert))
             session->dirty = true;
@@ -332,6 +349,7 @@ enum turner_result turner_view(const struct turner_view_options *options,
     struct turner_painter_options painter = {
         .render = options->render, .asked = &options->render, .path = options->path,
         .read = options->read, .reader = options->reader, .write = options->write,
+        .explain = options->explain,
         .wake = ring, .user = &bell};
     struct turner_shader_path path;
     *report = (struct turner_view_report){0};
@@ -361,6 +379,7 @@ done:
     turner_sight_destroy(&session.sight);
     turner_camera_path_destroy(&session.recorded);
     turner_panel_close(&session);
+    free(session.explanation);
     turner_shader_path_destroy(&path);
     return result;
 }

@@ -10,6 +10,7 @@ struct turner_view_options {
     struct turner_opening *opening;  /* begun */
     struct turner_render_options render;
     turner_picture_writer write;
+    turner_pixel_explainer explain;
     turner_scene_reader read; /* of the scene, when its file changed */
     void *reader;
     struct turner_camera first;  /* the scene's camera 0; scene->camera may be another */

@@ -103,6 +103,7 @@ class View:
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
             env=dict(screen.environment, **(environment or {})))
         self.window = None
+        self.printed = b""
 
     def xdo(self, *arguments):
         done = subprocess.run(["xdotool", *map(str, arguments)], env=self.screen.environment,
@@ -150,9 +151,14 @@ class View:
 
     def line(self):
         """The next line it prints."""
-        ready, _, _ = select.select([self.process.stdout], [], [], PATIENCE)
-        assert ready, "nothing was printed"
-        return self.process.stdout.readline()
+        while b"\n" not in self.printed:
+            ready, _, _ = select.select([self.process.stdout], [], [], PATIENCE)
+            assert ready, "nothing was printed"
+            piece = os.read(self.process.stdout.fileno(), 65536)
+            assert piece, "it ended"
+            self.printed += piece
+        line, self.printed = self.printed.split(b"\n", 1)
+        return line.decode() + "\n"
 
     def camera(self):
         """What C prints."""

@@ -92,8 +92,8 @@ static void test_no_more_than_needed(void **state)
             assert_true(scale == 1 && depth == 6);
         else if (scale < 1)
             assert_true(seconds >= TURNER_PACE_SECONDS * 0.75);
-        /* depth is kept as long as half the resolution can be had with it */
-        if (sqrt(TURNER_PACE_SECONDS / (cost(&device, 6) * WIDTH * HEIGHT)) > 0.57)
+        /* depth is kept as long as a quarter of the resolution can be had with it */
+        if (sqrt(TURNER_PACE_SECONDS / (cost(&device, 6) * WIDTH * HEIGHT)) > 0.285)
             assert_int_equal(depth, 6);
     }
 }
@@ -134,6 +134,24 @@ static void test_holds_still(void **state)
     assert_in_range(changes, 0, 5);
 }
 
+static void test_frames_are_seen(void **state)
+{
+    (void)state;
+    struct turner_pace pace;
+    turner_pace_start(&pace, 8);
+    for (int i = 0; i < 1000; i++) { /* showing takes 15 ms more than tracing */
+        double interval = pace.seconds + 0.015;
+        turner_pace_seen(&pace, interval);
+    }
+    assert_true(pace.seconds + 0.015 < 1.0 / 30 && pace.seconds > 0.012);
+    for (int i = 0; i < 1000; i++) /* and then 1 ms */
+        turner_pace_seen(&pace, pace.seconds + 0.001);
+    assert_true(pace.seconds + 0.001 > 0.029 && pace.seconds + 0.001 < 1.0 / 30);
+    for (int i = 0; i < 1000; i++)
+        turner_pace_seen(&pace, 1);
+    assert_true(pace.seconds > 0.01);
+}
+
 static void test_small_pictures(void **state)
 {
     (void)state;
@@ -156,6 +174,7 @@ int main(void)
         cmocka_unit_test(test_fast_gives_up_nothing), cmocka_unit_test(test_any_cost_is_met),
         cmocka_unit_test(test_no_more_than_needed),   cmocka_unit_test(test_comes_back),
         cmocka_unit_test(test_holds_still),           cmocka_unit_test(test_small_pictures),
+        cmocka_unit_test(test_frames_are_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,11 +9,12 @@ import os
 import pathlib
 import shutil
 import signal
+import subprocess
 import sys
 import tempfile
 import time
 
-from screen import DEVICE, INTERRUPTED, Screen, Skip, View, check_machine, ppm_pixels, render
+from screen import DEVICE, INTERRUPTED, TURNER, Screen, Skip, View, check_machine, ppm_pixels, render
 from screen import wait_until
 
 # A mirror, glass, a checkered floor: something in every pixel that a wrong camera would move.
@@ -258,6 +259,38 @@ def panel(screen):
     view.key("shift+v")
     wait_until("not the picture", lambda: screen.shown(*size) == bare)
     view.quit()
+
+
+@test
+def rays(screen):
+    """Ctrl+click lists what turner explain lists; a picture that moves takes no more memory."""
+    view = opened(screen)
+    view.xdo("keydown", "ctrl", "mousemove", 50, 60, "click", 1, "keyup", "ctrl")
+    wanted = subprocess.run([TURNER, "explain", "scene.json", "--pixel", "50,60"],
+                            capture_output=True, text=True, timeout=120, check=True).stdout
+    lines = wanted.splitlines(keepends=True)
+    assert [view.line() for _ in lines] == lines, "another list"
+    view.key("Escape")  # closes the list
+    view.quit()
+
+
+@test
+def soak(screen):
+    """Two thousand frames on the move take no more memory than the first few hundred."""
+    for seconds in (6, 30, 120):  # the last for machines that are busy
+        view = View(screen, "scene.json", "-q", "--size", "64x48", "--spin", "2", "--stats",
+                    "stats.json").find()
+        time.sleep(2)
+        before = view.memory()
+        time.sleep(seconds)
+        after = view.memory()
+        view.quit()
+        frames = json.loads(pathlib.Path("stats.json").read_text())["moving"]["frames"]
+        print(f"{frames} frames, {(after - before) / 1024:.0f} KiB more")
+        assert after - before < 4 << 20, f"{after - before} bytes more"
+        if frames >= 2000:
+            return
+    raise Skip("2000 frames take too long here")
 
 
 @test
