@@ -52,3 +52,6 @@ endforeach()
 
 turner_device_test(methods Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/methods.py
     $<TARGET_FILE:turner> ${PROJECT_SOURCE_DIR})
+
+turner_device_test(beams Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/beams.py
+    $<TARGET_FILE:turner>)
