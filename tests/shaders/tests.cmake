@@ -30,3 +30,4 @@ set_tests_properties(shaders_reload PROPERTIES LABELS device SKIP_RETURN_CODE 77
     ENVIRONMENT "MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/shaders_reload")
 turner_shader_test(watch watch.py shaders scene hard)
 turner_shader_test(compare compare.py differences errors)
+turner_shader_test(examples examples.py marble blinn toon listed)
