@@ -14,3 +14,7 @@ for scene in ../../scenes/*.json; do
 done
 "$turner" render ../../scenes/shadows.json --quiet --size 320x240 --spp 16 --shadows opaque \
     -o shadows-opaque.jpg
+for scene in marble blinn toon; do
+    "$turner" render ../../shaders/examples/$scene.json --quiet --size 320x240 --spp 16 \
+        -o shader-$scene.jpg
+done

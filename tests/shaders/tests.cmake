@@ -31,3 +31,4 @@ set_tests_properties(shaders_reload PROPERTIES LABELS device SKIP_RETURN_CODE 77
 turner_shader_test(watch watch.py shaders scene hard)
 turner_shader_test(compare compare.py differences errors)
 turner_shader_test(examples examples.py marble blinn toon listed)
+turner_shader_test(tutorial tutorial.py steps)
