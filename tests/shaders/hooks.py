@@ -163,5 +163,25 @@ def everything():
         draw("scene.json", "--shader-dir", "own", "--unspecialised")
 
 
+def free():
+    """Hooks as they come cost nothing: without them the optimised kernel has as many bytes, and draws
+    the same."""
+    import json
+    text = (SOURCE / "shaders/whitted.glsl").read_text()
+    for old, new in (("user_surface(met.material, met.surface.ns, met.surface);", ""),
+                     ("user_brdf(", "local_illumination("), ("user_background(", "background("),
+                     ("user_light(light_array(scene.lights).at[index], index,",
+                      "light_arrival(light_array(scene.lights).at[index],")):
+        assert text.count(old) == 1, f"whitted.glsl has changed: {old}"
+        text = text.replace(old, new)
+    write("without/whitted.glsl", text)
+    for scene in ("whitted1980", "prism", "lights"):
+        found = json.loads(turner("compare-shaders", SOURCE / f"scenes/{scene}.json", "without", "-",
+                                  "--size", "64x48", "--runs", "1", "--no-reference", "--json",
+                                  "-q").stdout)
+        assert found["difference"]["pixels_over"] == 0, scene
+        assert found["a"]["kernel_bytes"] == found["b"]["kernel_bytes"] > 10000, scene
+
+
 run({t.__name__: t for t in (plain, brdf, surface, background, light, post, folders, reference,
-                             everything)})
+                             everything, free)})

@@ -10,7 +10,7 @@ function(turner_shader_test name script)
         ENVIRONMENT "TURNER=$<TARGET_FILE:turner>;TURNER_SOURCE=${PROJECT_SOURCE_DIR};PYTHONDONTWRITEBYTECODE=1;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/shaders_${name}")
 endfunction()
 turner_shader_test(hooks hooks.py
-    plain brdf surface background light post folders reference everything)
+    plain brdf surface background light post folders reference everything free)
 turner_shader_test(check check.py templates examples errors recursion)
 set_tests_properties(shaders_check PROPERTIES LABELS "")
 turner_shader_test(params params.py values constants metadata everywhere listed)
