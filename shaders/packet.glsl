@@ -334,7 +334,7 @@ void walk_group(inout search_t search, uint root, uint instance, uint override_m
             if (walk.next != 0u)
                 take(walk, search);
         } while (is_leaf(walk.next));
-    } while (walk.next != 0u && ++walk.visits < scene.max_visits);
+    } while (walk.next != 0u && walk.visits < scene.max_visits);
 }
 
 void traverse(inout search_t search, ray_t ray)
@@ -363,5 +363,5 @@ void traverse(inout search_t search, ray_t ray)
             if (walk.next != 0u)
                 take(walk, search);
         } while (is_leaf(walk.next));
-    } while (walk.next != 0u && ++walk.visits < scene.max_visits);
+    } while (walk.next != 0u && walk.visits < scene.max_visits);
 }
