@@ -6,6 +6,8 @@
 #include "app/check_needs.h"
 #include "app/check_shader.h"
 #include "render/advice.h"
+#include "render/params.h"
+#include "render/shader_path.h"
 
 static void print_help(void)
 {
@@ -67,6 +69,17 @@ struct arguments {
     struct turner_measure measure; /* when its folder is set */
 };
 
+/* That its folder of shaders can be read, and that its parameters are theirs. */
+static enum turner_result check_params(struct turner_scene *scene)
+{
+    struct turner_render_options options = {0};
+    struct turner_shader_path shaders;
+    turner_shader_path_create(&shaders, &options, scene);
+    enum turner_result result = turner_params_settle(scene, &options);
+    turner_shader_path_destroy(&shaders);
+    return result == TURNER_USAGE ? turner_fail_within(TURNER_BAD_INPUT, "\"params\"") : result;
+}
+
 static enum turner_result check_scene(const struct arguments *a, const char *path,
                                       struct turner_kernel_set *kernels, cJSON *list)
 {
@@ -78,7 +91,8 @@ static enum turner_result check_scene(const struct arguments *a, const char *pat
     struct turner_scene *scene;
     enum turner_result result = TURNER_OK;
     TURNER_TRY(turner_scene_load(&scene, path));
-    if (a->needs)
+    result = check_params(scene);
+    if (result == TURNER_OK && a->needs)
         result = turner_kernel_set_get(&kernel, kernels, &able, scene, a->measure.traversal);
     if (result != TURNER_OK)
         turner_fail_within(result, "%s", path);

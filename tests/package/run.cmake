@@ -44,6 +44,15 @@ if(NOT EXISTS ${WORK}/picture.png)
     message(FATAL_ERROR "the installed turner made no picture")
 endif()
 
+# ---- its shaders count: the reference, which has none, says that one was changed ----
+file(APPEND ${prefix}/share/turner/shaders/user/post.glsl "// changed\n")
+execute_process(COMMAND ${prefix}/bin/turner render
+    ${prefix}/share/turner/scenes/whitted1980.json --device reference --size 16x12
+    -o ${WORK}/picture.png ERROR_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
+if(NOT said MATCHES "knows nothing of .*share/turner/shaders/user/post.glsl")
+    message(FATAL_ERROR "the installed shaders are not looked at: ${said}")
+endif()
+
 # ---- the module for other formats: found there, and what is said without it ----
 file(GLOB modules ${prefix}/${LIBDIR}/turner/turner-oiio.*)
 if(modules) # a static build has it linked in

@@ -81,4 +81,22 @@ def recursion():
     turner("check", "own/fresnel.glsl", status=3)
 
 
-run({t.__name__: t for t in (templates, examples, errors, recursion)}, device=False)
+def scenes():
+    """A scene's folder of shaders, and what it says of their parameters; also in turner chart."""
+    scene = {"version": 1, "camera": {"from": [0, 0, 5], "at": [0, 0, 0]}}
+    write("scene.json", scene)
+    turner("check", "scene.json")
+    write("shaders/user/post.glsl", "//!PARAM level float 1 0 2 \"\"\n"
+          "vec3 user_post(vec3 c, vec2 p, vec2 s) { return c * level; }\n")
+    for params, status in (({"level": 2}, 0), ({"level": 3}, 3), ({"lewel": 2}, 3)):
+        write("scene.json", {**scene, "params": params})
+        turner("check", "-q", "scene.json", status=status)
+    write("scene.json", {**scene, "shaders": "nowhere"})
+    assert "nowhere" in turner("check", "-q", "scene.json", status=3).stderr
+    write("scene.json", scene)
+    said = turner("chart", "scene.json", "--list", "--set", "level=0.5").stderr
+    assert "knows nothing of shaders/user/post.glsl; what they change counts as error" in said
+    turner("chart", "scene.json", "--list", "--set", "level=5", status=2)
+
+
+run({t.__name__: t for t in (templates, examples, errors, recursion, scenes)}, device=False)

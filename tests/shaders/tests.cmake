@@ -1,4 +1,5 @@
 # Shaders that users write: hooks, parameters, what watches them.
+turner_unit_test(watch ${CMAKE_CURRENT_LIST_DIR}/test_watch.c LAYERS base)
 turner_unit_test(shader_param ${CMAKE_CURRENT_LIST_DIR}/test_param.c LAYERS base image gpu)
 if(NOT TARGET turner)
     return()
@@ -11,7 +12,7 @@ function(turner_shader_test name script)
 endfunction()
 turner_shader_test(hooks hooks.py
     plain brdf surface background light post folders reference everything free)
-turner_shader_test(check check.py templates examples errors recursion)
+turner_shader_test(check check.py templates examples errors recursion scenes)
 set_tests_properties(shaders_check PROPERTIES LABELS "")
 turner_shader_test(params params.py values constants metadata everywhere listed)
 
