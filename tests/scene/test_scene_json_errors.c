@@ -164,7 +164,7 @@ static void root(void **state)
                                     "$.Ambient)"},
         {HEAD ", @\"fog\": {}}",
          "unknown key \"fog\"; known for a scene: \"$schema\", \"version\", \"description\", \"shaders\", \"params\", "
-         "\"settings\", \"camera\", \"ambient\", \"background\", \"media\", \"materials\", "
+         "\"settings\", \"camera\", \"cameras\", \"ambient\", \"background\", \"media\", \"materials\", "
          "\"meshes\", \"primitives\", \"groups\", \"instances\", \"lights\" (at $.fog)"},
         {HEAD ",\n \"ambient\": 1, @\"ambient\": 2}",
          "the key \"ambient\" is here twice (at $.ambient)"},
