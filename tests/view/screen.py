@@ -55,8 +55,9 @@ class Screen:
         read, write = os.pipe()
         self.server = subprocess.Popen(
             ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24", "-nolisten",
-             "tcp", "-fbdir", str(self.folder)], pass_fds=[write], stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+             "tcp", "-noreset", "-fbdir", str(self.folder)], pass_fds=[write],
+            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        # -noreset: else it begins anew when its last client leaves, and refuses others meanwhile
         os.close(write)
         with os.fdopen(read) as pipe:
             number = pipe.readline().strip()
@@ -114,11 +115,17 @@ class View:
         """Waits for the window, and gives it the keys."""
         def there():
             assert self.process.poll() is None, "it ended: " + self.process.stderr.read()
-            return self.xdo("search", "--name", " turner$")
+            return self.xdo("search", "--onlyvisible", "--name", " turner$")
         self.window = wait_until("no window", there).split()[0]
-        self.xdo("windowfocus", "--sync", self.window)
+        self.focus()
         self.xdo("mousemove", self.screen.width - 1, self.screen.height - 1)  # it is drawn, too
         return self
+
+    def focus(self):
+        def focused():
+            self.xdo("windowfocus", self.window)
+            return self.xdo("getwindowfocus") == self.window
+        wait_until("the window does not get the keys", focused)
 
     def key(self, *names):
         self.xdo("key", *names)
@@ -170,7 +177,7 @@ class View:
         self.xdo("mousemove", x, y)
         if held:
             self.xdo("keydown", *held)
-        time.sleep(0.1)  # as slow as a hand: the panel looks at the mouse once a frame
+        time.sleep(0.1)  # as slow as a hand: the panel looks at the mouse once a frame (drag_until)
         self.xdo("mousedown", button)
         time.sleep(0.1)
         for step in (0.3, 0.7, 1):
@@ -179,6 +186,23 @@ class View:
         self.xdo("mouseup", button)
         if held:
             self.xdo("keyup", *held)
+
+    def drag_until(self, what, done, button, place, dx, dy):
+        """On the panel, from place(): again where it was too busy to look at the mouse in between."""
+        end = time.monotonic() + PATIENCE
+        while not done():
+            assert time.monotonic() < end, what
+            self.drag(button, *place(), dx, dy)
+            try:
+                wait_until(what, done, 5)
+            except AssertionError:
+                pass
+
+    def rests(self):
+        """Whether it takes no processor time for two seconds, but for a tick."""
+        before = self.cpu()
+        time.sleep(2)
+        return self.cpu() - before <= 1
 
     def cpu(self):
         """Ticks of processor time so far."""

@@ -60,16 +60,14 @@ def picture(screen):
         assert shot.read_bytes() == render("scene.json", "same.exr", *settings), "other bytes"
         shot.unlink()
         if not settings:
-            time.sleep(4)  # until it no longer says that it saved
-            before = view.cpu()
-            time.sleep(2)
-            assert view.cpu() - before <= 1, f"{view.cpu() - before} ticks in 2 s at rest"
+            time.sleep(3)  # until it no longer says that it saved
+            wait_until("it does not rest", view.rests, 20)
         view.quit()
 
 
-def wait_for_frame(view):
+def wait_for_frame(view, size=(64, 48)):
     view.find()
-    wait_until("nothing is shown", lambda: len(set(view.screen.shown(*SIZE))) > 20)
+    wait_until("nothing is shown", lambda: len(set(view.screen.shown(*size))) > 20)
 
 
 @test
@@ -124,7 +122,7 @@ def resize(screen):
     time.sleep(0.5)
     view.xdo("windowmap", "--sync", view.window)
     view.wait_for_picture(*wanted)
-    view.xdo("windowfocus", "--sync", view.window)
+    view.focus()
     view.quit()
 
 
@@ -190,7 +188,8 @@ def camera(screen):
     forward = [-x / length(back) for x in back]
     for key, way in (("Up", forward), ("Left", [-1, 0, 0])):
         view.xdo("keydown", key)
-        time.sleep(0.2)
+        wait_until("it does not fly", lambda: differs(view, "from", start["from"]))
+        time.sleep(0.1)
         view.xdo("keyup", key)
         now = view.camera()
         step = minus(now["from"], start["from"])
@@ -198,8 +197,15 @@ def camera(screen):
         assert near([x / length(step) for x in step], way, 1e-3), f"fly: {now}"
         view.key("Home")
 
-    view.xdo("mousemove", 50, 60, "click", "--repeat", 2, "--delay", 60, 1)  # the mirror
-    at = wait_until("nothing was looked at", lambda: differs(view, "at", start["at"]))
+    for patience in (5, 5, 60):  # to a busy machine the clicks may seem to be too far apart
+        view.xdo("mousemove", 50, 60, "click", "--repeat", 2, "--delay", 60, 1)  # the mirror
+        try:
+            at = wait_until("nothing was looked at", lambda: differs(view, "at", start["at"]),
+                            patience)
+            break
+        except AssertionError:
+            if patience == 60:
+                raise
     assert abs(length(minus(at, [-0.8, 0.4, 0])) - 0.7) < 1e-4, f"not on the sphere: {at}"
     view.quit()
 
@@ -246,11 +252,11 @@ def panel(screen):
     bare = screen.shown(*size)
     view.key("Tab")
     wait_until("no panel", lambda: len(sliders(screen, *size)) >= 4)
-    x, y = sliders(screen, *size)[0]
-    view.drag(1, x, y, -300, 0)
-    wait_until("the slider changes nothing", lambda: shown() == flat)
-    view.drag(1, *sliders(screen, *size)[0], 300, 0)
-    wait_until("the slider changes nothing", lambda: shown() != flat)
+    def first():
+        return wait_until("no slider", lambda: sliders(screen, *size))[0]
+    what = "the slider changes nothing"
+    view.drag_until(what, lambda: shown() == flat, 1, first, -300, 0)
+    view.drag_until(what, lambda: shown() != flat, 1, first, 300, 0)
     view.key("Tab")
     view.key("Home")
     view.quit()
@@ -279,7 +285,8 @@ def soak(screen):
     """Two thousand frames on the move take no more memory than the first few hundred."""
     for seconds in (6, 30, 120):  # the last for machines that are busy
         view = View(screen, "scene.json", "-q", "--size", "64x48", "--spin", "2", "--stats",
-                    "stats.json").find()
+                    "stats.json")
+        wait_for_frame(view)
         time.sleep(2)
         before = view.memory()
         time.sleep(seconds)
@@ -382,6 +389,7 @@ def main():
     if sys.argv[1:] == ["list"]:
         print("\n".join(tests))
         return 0
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's "&" has it ignored
     os.chdir(tempfile.mkdtemp(prefix="turner-view-"))
     folder = pathlib.Path().absolute()
     pathlib.Path("scene.json").write_text(SCENE)
