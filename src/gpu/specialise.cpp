@@ -1,8 +1,11 @@
 /* The only file that speaks to SPIRV-Tools' optimiser, which is C++. */
 #include <cstring>
+#include <functional>
 #include <spirv-tools/optimizer.hpp>
+#include <spirv_cross/spirv.h>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 extern "C" {
@@ -10,14 +13,11 @@ extern "C" {
 #include "gpu/specialise.h"
 }
 
-static enum turner_result run(struct turner_spirv *out, const struct turner_spirv *spirv,
-                              const struct turner_constant *constants, size_t count, bool optimise)
-{
-    *out = {};
-    std::unordered_map<uint32_t, std::vector<uint32_t>> values;
-    for (size_t i = 0; i < count; i++)
-        values[constants[i].id] = {constants[i].value};
+using words = std::vector<uint32_t>;
 
+static enum turner_result run(words *out, const uint32_t *in, size_t count,
+                              const std::function<void(spvtools::Optimizer &)> &passes)
+{
     std::string said;
     spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_3);
     optimizer.SetMessageConsumer([&said](spv_message_level_t level, const char *,
@@ -25,37 +25,108 @@ static enum turner_result run(struct turner_spirv *out, const struct turner_spir
         if (level <= SPV_MSG_ERROR && said.empty())
             said = message;
     });
-    optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
-        .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
-        .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
-        .RegisterPass(spvtools::CreateCCPPass())
-        .RegisterPass(spvtools::CreateDeadBranchElimPass());
-    if (optimise)
-        optimizer.RegisterPerformancePasses();
-    else
-        optimizer.RegisterPass(spvtools::CreateStripDebugInfoPass())
-            .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
+    passes(optimizer);
     spvtools::OptimizerOptions options;
     options.set_run_validator(false); /* turner_spirv_validate does that */
-    std::vector<uint32_t> words;
-    if (!optimizer.Run(spirv->words, spirv->count, &words, options))
+    words result;
+    if (!optimizer.Run(in, count, &result, options))
         return turner_fail(TURNER_BAD_INPUT, "SPIRV-Tools cannot specialise the shader: %s",
                            said.empty() ? "no reason given" : said.c_str());
-    out->count = words.size();
-    out->words = static_cast<uint32_t *>(turner_calloc(words.size(), sizeof *out->words));
-    std::memcpy(out->words, words.data(), words.size() * sizeof *out->words);
+    *out = std::move(result);
     return TURNER_OK;
+}
+
+static enum turner_result fold(words *out, const struct turner_spirv *spirv,
+                               const struct turner_constant *constants, size_t count)
+{
+    std::unordered_map<uint32_t, words> values;
+    for (size_t i = 0; i < count; i++)
+        values[constants[i].id] = {constants[i].value};
+    return run(out, spirv->words, spirv->count, [&values](spvtools::Optimizer &optimizer) {
+        optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
+            .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
+            .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
+            .RegisterPass(spvtools::CreateCCPPass())
+            .RegisterPass(spvtools::CreateDeadBranchElimPass())
+            .RegisterPass(spvtools::CreateStripDebugInfoPass())
+            .RegisterPass(spvtools::CreateInlineExhaustivePass())
+            .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
+    });
+}
+
+/* Functions that return from within a loop are not inlined. */
+static bool calls(const words &spirv)
+{
+    const size_t header = 5;
+    for (size_t i = header; i < spirv.size() && spirv[i] >> 16; i += spirv[i] >> 16)
+        if ((spirv[i] & 0xffff) == SpvOpFunctionCall)
+            return true;
+    return false;
+}
+
+/* What inlining makes of a parameter that is a buffer's address is a variable that lacks the
+ * decoration such variables must have. */
+static void decorate(words &spirv)
+{
+    const size_t header = 5;
+    std::unordered_set<uint32_t> addresses, holders, decorated;
+    words missing;
+    size_t first_type = 0;
+    for (size_t i = header; i < spirv.size() && spirv[i] >> 16; i += spirv[i] >> 16) {
+        const uint32_t *word = &spirv[i], op = word[0] & 0xffff;
+        if (!first_type && op >= SpvOpTypeVoid && op <= SpvOpTypeForwardPointer)
+            first_type = i;
+        if (op == SpvOpDecorate && (word[2] == SpvDecorationAliasedPointer ||
+                                    word[2] == SpvDecorationRestrictPointer))
+            decorated.insert(word[1]);
+        else if (op == SpvOpTypePointer && word[2] == SpvStorageClassPhysicalStorageBuffer)
+            addresses.insert(word[1]);
+        else if (op == SpvOpTypePointer && addresses.count(word[3]))
+            holders.insert(word[1]);
+        else if (op == SpvOpVariable && holders.count(word[1]) && !decorated.count(word[2]))
+            missing.insert(missing.end(),
+                           {3u << 16 | SpvOpDecorate, word[2], SpvDecorationAliasedPointer});
+    }
+    spirv.insert(spirv.begin() + static_cast<ptrdiff_t>(first_type), missing.begin(),
+                 missing.end());
+}
+
+static void put(struct turner_spirv *out, const words &from)
+{
+    out->count = from.size();
+    out->words = static_cast<uint32_t *>(turner_calloc(from.size(), sizeof *out->words));
+    std::memcpy(out->words, from.data(), from.size() * sizeof *out->words);
 }
 
 enum turner_result turner_spirv_specialise(struct turner_spirv *out,
                                            const struct turner_spirv *spirv,
                                            const struct turner_constant *constants, size_t count)
 {
-    return run(out, spirv, constants, count, true);
+    words left;
+    *out = {};
+    TURNER_TRY(fold(&left, spirv, constants, count));
+    TURNER_TRY(run(&left, left.data(), left.size(), [](spvtools::Optimizer &optimizer) {
+        optimizer.RegisterPerformancePasses();
+    }));
+    decorate(left);
+    put(out, left);
+    return TURNER_OK;
 }
 
 enum turner_result turner_spirv_reduce(struct turner_spirv *out, const struct turner_spirv *spirv,
                                        const struct turner_constant *constants, size_t count)
 {
-    return run(out, spirv, constants, count, false);
+    words left;
+    *out = {};
+    TURNER_TRY(fold(&left, spirv, constants, count));
+    if (!calls(left))
+        TURNER_TRY(run(&left, left.data(), left.size(), [](spvtools::Optimizer &optimizer) {
+            optimizer.RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
+                .RegisterPass(spvtools::CreateLocalSingleStoreElimPass())
+                .RegisterPass(spvtools::CreateAggressiveDCEPass())
+                .RegisterPass(spvtools::CreateBlockMergePass());
+        }));
+    decorate(left);
+    put(out, left);
+    return TURNER_OK;
 }

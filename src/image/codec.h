@@ -42,7 +42,8 @@ struct turner_packer {
     const struct turner_image *image;
     double scale;
     bool linear;
-    float least[256]; /* 8 bit: the least float that becomes so much */
+    float least[257];      /* 8 bit: the least float that becomes so much; of 256 infinite */
+    uint8_t first[0x7f80]; /* what the least of the floats becomes that begin with these 16 bits */
 };
 void turner_packer_create(struct turner_packer *packer, const struct turner_format *format,
                           const struct turner_image *image,

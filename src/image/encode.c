@@ -95,18 +95,36 @@ void turner_packer_create(struct turner_packer *packer, const struct turner_form
                           const struct turner_image *image,
                           const struct turner_image_encoding *encoding)
 {
-    *packer = (struct turner_packer){format, image, exp2(encoding->exposure), encoding->linear, {0}};
-    for (int i = 1; i < 256 && format->sample == TURNER_SAMPLE_U8; i++)
+    *packer = (struct turner_packer){
+        .format = format, .image = image, .scale = exp2(encoding->exposure),
+        .linear = encoding->linear};
+    if (format->sample != TURNER_SAMPLE_U8)
+        return;
+    for (int i = 1; i < 256; i++)
         packer->least[i] = least_of(i, packer->scale, packer->linear);
+    packer->least[256] = INFINITY;
+    unsigned sample = 0;
+    for (uint32_t i = 0; i < sizeof packer->first; i++) {
+        float v;
+        memcpy(&v, &(uint32_t){i << 16}, sizeof v);
+        while (v >= packer->least[sample + 1])
+            sample++;
+        packer->first[i] = (uint8_t)sample;
+    }
 }
 
-/* The same as quantise to 255, in a tenth of the time: eight comparisons instead of a power. */
-static uint8_t find_sample(const float least[256], float v)
+/* The same as quantise to 255 in a fiftieth of the time: looked up by exponent and seven more bits,
+ * between which lie two steps at most. */
+static uint8_t find_sample(const struct turner_packer *packer, float v)
 {
-    int sample = 0;
-    for (int step = 128; step > 0; step /= 2)
-        sample += v >= least[sample + step] ? step : 0;
-    return v <= FLT_MAX ? (uint8_t)sample : 0; /* infinite and NaN: as encode does */
+    if (!(v > 0 && v <= FLT_MAX)) /* infinite and NaN: as encode does */
+        return 0;
+    uint32_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    unsigned sample = packer->first[bits >> 16];
+    while (v >= packer->least[sample + 1])
+        sample++;
+    return (uint8_t)sample;
 }
 
 void turner_packer_rows(void *samples, const struct turner_packer *packer, int row, int rows)
@@ -118,7 +136,7 @@ void turner_packer_rows(void *samples, const struct turner_packer *packer, int r
         float v = rgba[i / 3 * 4 + i % 3];
         switch (packer->format->sample) {
         case TURNER_SAMPLE_U8:
-            ((uint8_t *)samples)[i] = find_sample(packer->least, v);
+            ((uint8_t *)samples)[i] = find_sample(packer, v);
             break;
         case TURNER_SAMPLE_U16:
             ((uint16_t *)samples)[i] =

@@ -1,6 +1,7 @@
 /* reload_seconds SCENE.json [N]: how long it takes from saving a hook of 20 lines to its kernel being
  * ready, and to its picture; nothing of it in a cache. Prints the median and the worst of N (50), and
  * of each step. */
+#include "gpu/specialise.h"
 #include "reload_bench.h"
 
 #include <time.h>
