@@ -14,7 +14,9 @@
 #include "image/image.h"
 #include "reference/reference.h"
 #include "render/explain.h"
+#include "render/params.h"
 #include "render/renderer.h"
+#include "render/shader_path.h"
 #include "view/view.h"
 
 #define EXPLAIN_BITS 10 /* rays that agree in fewer part, as turner explain has it */
@@ -130,11 +132,33 @@ static enum turner_result write_picture(const char *path, const struct turner_sc
     return turner_picture_write(path, scene, image, statistics, NULL);
 }
 
+/* Parameters stay as they are given: the shaders may change, and with them what is not given. */
+static enum turner_result apply_options(const struct turner_scene_options *options,
+                                        struct turner_scene *scene)
+{
+    struct turner_render_options render = options->render;
+    struct turner_shader_path path;
+    struct turner_params params;
+    enum turner_result result = TURNER_OK;
+    TURNER_TRY(turner_scene_options_settings(options, scene));
+    for (size_t i = 0; i < options->param_count; i++)
+        TURNER_TRY(turner_scene_assign_param(scene, options->params[i]));
+    if (!scene->param_count)
+        return TURNER_OK;
+    turner_shader_path_create(&path, &render, scene);
+    TURNER_TRY_DONE(turner_params_find(&params, NULL, &render));
+    TURNER_TRY_DONE(turner_params_check(&params, scene));
+done:
+    turner_params_destroy(&params);
+    turner_shader_path_destroy(&path);
+    return result;
+}
+
 static enum turner_result read_scene(void *user, struct turner_scene **scene)
 {
     const struct arguments *a = user;
     TURNER_TRY(turner_scene_load(scene, a->scene));
-    enum turner_result result = turner_scene_options_apply(&a->options, *scene);
+    enum turner_result result = apply_options(&a->options, *scene);
     if (result != TURNER_OK) {
         turner_scene_destroy(*scene);
         *scene = NULL;
@@ -237,7 +261,7 @@ static enum turner_result load_and_view(struct arguments *a)
     enum turner_result result;
     TURNER_TRY_DONE(turner_scene_load(&scene, a->scene));
     struct turner_camera first = scene->camera;
-    result = turner_scene_options_apply(&a->options, scene);
+    result = apply_options(&a->options, scene);
     struct turner_view_options options = {
         .first = first,
         .seen = (enum turner_seen)a->seen,

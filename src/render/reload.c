@@ -193,13 +193,28 @@ static void start(struct turner_reload *reload, struct turner_shader_source *sou
     reload->state = TURNER_RELOAD_BROKEN;
 }
 
-/* Everything that decides the kernel but the renderer itself. */
+/* What is not in the text of live ones. */
+static uint64_t hash_params(uint64_t hash, const struct turner_params *params)
+{
+    for (size_t i = 0; i < params->count; i++) {
+        const struct turner_param *param = &params->at[i];
+        const double range[2] = {param->least, param->most};
+        hash = turner_hash_bytes(hash, range, sizeof range);
+        hash = turner_hash_bytes(hash, param->standard.number, sizeof param->standard.number);
+        hash = turner_hash_text(hash, param->standard.name);
+    }
+    return hash;
+}
+
+/* Everything that decides the kernel, and the values it begins with, but the renderer itself. */
 static uint64_t hash_of(const struct turner_reload *reload,
                         const struct turner_shader_source *source,
                         const struct turner_shader_source *post_source)
 {
     uint64_t hash = turner_hash_text(TURNER_HASH_START, source->text);
     hash = turner_hash_text(hash, post_source->text);
+    hash = hash_params(hash, &source->params);
+    hash = hash_params(hash, &post_source->params);
     struct turner_constant constants[2 * TURNER_PARAM_WORDS];
     size_t count = 0;
     enum turner_result result =

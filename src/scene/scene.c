@@ -53,17 +53,35 @@ void turner_mesh_destroy(struct turner_mesh *mesh)
     *mesh = (struct turner_mesh){0};
 }
 
+void turner_scene_free_params(struct turner_scene *scene)
+{
+    for (size_t i = 0; i < scene->param_count; i++) {
+        free(scene->params[i].name);
+        free(scene->params[i].value);
+    }
+    free(scene->params);
+    scene->params = NULL;
+    scene->param_count = scene->param_capacity = 0;
+}
+
+void turner_scene_own_params(struct turner_scene *scene)
+{
+    struct turner_scene_param *shared = scene->params;
+    scene->params = turner_calloc(scene->param_count + 1, sizeof *scene->params);
+    scene->param_capacity = scene->param_count + 1;
+    for (size_t i = 0; i < scene->param_count; i++) {
+        scene->params[i].name = turner_strdup(shared[i].name);
+        scene->params[i].value = turner_strdup(shared[i].value);
+    }
+}
+
 void turner_scene_destroy(struct turner_scene *scene)
 {
     if (!scene)
         return;
     free(scene->path);
     free(scene->description);
-    for (size_t i = 0; i < scene->param_count; i++) {
-        free(scene->params[i].name);
-        free(scene->params[i].value);
-    }
-    free(scene->params);
+    turner_scene_free_params(scene);
     free(scene->shaders);
     for (size_t i = 0; i < scene->media_count; i++)
         free(scene->media[i].name);

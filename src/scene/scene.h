@@ -240,6 +240,10 @@ struct turner_scene *turner_scene_create(void);
 /* Gives a parameter of the shaders a value, in place of one it may have; which there are, and what
  * they take, only the shaders say. */
 void turner_scene_set_param(struct turner_scene *scene, const char *name, const char *value);
+/* A copy of one that shares its parameters with another scene has its own from here on; free them
+ * with turner_scene_free_params. */
+void turner_scene_own_params(struct turner_scene *scene);
+void turner_scene_free_params(struct turner_scene *scene);
 /* "name=value" in one; TURNER_USAGE when it is not. */
 enum turner_result turner_scene_assign_param(struct turner_scene *scene, const char *assignment);
 

@@ -46,6 +46,13 @@ bool turner_painter_alert(struct turner_painter *painter, char alert[2048])
 
 /* ---- in the painter's ---- */
 
+void turner_painter_find_shaders(struct turner_painter *painter)
+{
+    turner_shader_path_destroy(&painter->path);
+    painter->render = painter->options.render;
+    turner_shader_path_create(&painter->path, &painter->render, &painter->scene);
+}
+
 void turner_painter_say_alert(struct turner_painter *painter, const char *alert)
 {
     pthread_mutex_lock(&painter->mutex);
@@ -68,12 +75,12 @@ void turner_painter_watch(struct turner_painter *painter)
 {
     turner_watch_add(&painter->watch, painter->options.path, painter->since);
     if (painter->blind && painter->watch.count == 1)
-        turner_shader_watch_all(&painter->watch, painter->options.asked, &painter->scene,
+        turner_shader_watch_all(&painter->watch, &painter->options.render, &painter->scene,
                                 painter->since);
     if (painter->reload || !painter->ready)
         return;
     if (turner_reload_create(&painter->reload, &painter->renderer, &painter->scene,
-                             painter->options.asked, painter->since) != TURNER_OK)
+                             &painter->options.render, painter->since) != TURNER_OK)
         painter->reload = NULL; /* what is shown stays as it is */
 }
 
@@ -85,6 +92,7 @@ static uint64_t shape_of(const struct turner_scene *scene)
     plain.camera = (struct turner_camera){0};
     plain.ambient = (struct turner_vec3){0, 0, 0};
     plain.background = (struct turner_background){0};
+    plain.param_count = 0;
     plain.lights = turner_calloc(scene->light_count + 1, sizeof *plain.lights);
     plain.materials = turner_calloc(scene->material_count + 1, sizeof *plain.materials);
     for (size_t i = 0; i < scene->material_count; i++)
@@ -106,11 +114,17 @@ void turner_painter_take_scene(struct turner_painter *painter)
     struct turner_scene before = painter->scene;
     bool fits = false;
     painter->scene = *next;
+    turner_scene_own_params(&painter->scene);
     if (painter->ready && shape_of(&before) == shape_of(next) &&
-        before.param_count == 0 && next->param_count == 0 &&
         turner_renderer_paint(&painter->renderer, &before, &painter->scene, &fits) != TURNER_OK)
         fits = false;
+    if (fits && painter->reload) /* other parameters, names of materials, folder of shaders */
+        fits = turner_reload_set_params(painter->reload, &painter->scene) == TURNER_OK;
+    else if (fits)
+        fits = before.param_count == 0 && next->param_count == 0 && !before.shaders &&
+               !next->shaders;
     painter->ready = painter->ready && fits;
+    turner_scene_free_params(&before);
     free(painter->materials); /* the panel's: the file has the last word */
     free(painter->lights);
     painter->materials = NULL;
@@ -159,6 +173,9 @@ enum turner_result turner_painter_poll(struct turner_painter *painter, bool *red
     if (painter->reload && turner_reload_poll(painter->reload) == TURNER_RELOAD_READY) {
         if (turner_reload_swap(painter->reload, &painter->kernel, &painter->scene) == TURNER_OK)
             *redraw = true;
+        turner_painter_find_shaders(painter); /* a folder of them may be new */
+        if (painter->file_alert[0])
+            read_scene(painter); /* it may be right with these */
     }
     if (!*alert && painter->reload &&
         turner_reload_state(painter->reload) == TURNER_RELOAD_BROKEN)

@@ -164,15 +164,18 @@ static void write_shot(struct turner_painter *painter)
     struct turner_statistics statistics = painter->own.statistics;
     struct turner_scene scene = painter->scene;
     const struct turner_image *image = &painter->full;
+    turner_scene_own_params(&scene);
     if (painter->own.seen) { /* colours are as they are */
         image = &painter->colors;
         scene.settings.exposure = 0;
         scene.settings.transfer = TURNER_TRANSFER_LINEAR;
     }
-    if (painter->options.write(path, &scene, image, &statistics) == TURNER_OK)
+    if (turner_params_settle(&scene, &painter->render) == TURNER_OK &&
+        painter->options.write(path, &scene, image, &statistics) == TURNER_OK)
         snprintf(text, sizeof text, "saved %s", path);
     else
         snprintf(text, sizeof text, "%s", turner_message());
+    turner_scene_free_params(&scene);
     free(path);
     say(painter, text);
 }
@@ -186,7 +189,7 @@ static void explain(struct turner_painter *painter, double x, double y)
     FILE *out = open_memstream(&text, &size);
     if (!out)
         return;
-    if (painter->options.explain(out, &scene, &painter->options.render, (int)x, (int)y) !=
+    if (painter->options.explain(out, &scene, &painter->render, (int)x, (int)y) !=
         TURNER_OK)
         fprintf(out, "%s\n", turner_message());
     fclose(out);
@@ -263,7 +266,9 @@ static enum turner_result prepare(struct turner_painter *painter, const struct t
 {
     turner_painter_take_scene(painter);
     TURNER_TRY(turner_painter_take_paint(painter));
-    enum turner_result result = turner_painter_prepare(painter, wish);
+    enum turner_result result = turner_painter_take_params(painter);
+    if (result == TURNER_OK)
+        result = turner_painter_prepare(painter, wish);
     bool broken = result == TURNER_BAD_INPUT || result == TURNER_USAGE;
     painter->blind = broken && painter->count > 0;
     if (!painter->blind && painter->watch.count > 1)
@@ -328,6 +333,7 @@ enum turner_result turner_painter_start(struct turner_painter *painter,
     *painter = (struct turner_painter){
         .options = *options, .opening = opening, .scene = *scene, .wish = *first,
         .fresh_wish = true, .since = turner_watch_now()};
+    turner_scene_own_params(&painter->scene);
     pthread_condattr_t attributes;
     pthread_condattr_init(&attributes);
     pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
@@ -354,8 +360,12 @@ void turner_painter_stop(struct turner_painter *painter)
     free(painter->shot);
     free(painter->explanation);
     painter->shot = painter->explanation = NULL;
+    struct turner_scene set = {.params = painter->params, .param_count = painter->param_count};
+    turner_scene_free_params(&set);
+    turner_scene_free_params(&painter->scene);
     turner_scene_destroy(painter->read);
     turner_scene_destroy(painter->next);
     turner_scene_destroy(painter->owned);
     turner_watch_clear(&painter->watch);
+    turner_shader_path_destroy(&painter->path);
 }

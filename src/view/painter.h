@@ -10,6 +10,7 @@
 #include "image/codec.h"
 #include "render/opening.h"
 #include "render/reload.h"
+#include "render/shader_path.h"
 #include "scene/scene.h"
 #include "view/pace.h"
 
@@ -79,8 +80,7 @@ typedef enum turner_result (*turner_pixel_explainer)(FILE *out, const struct tur
 
 struct turner_painter_options {
     turner_pixel_explainer explain;
-    struct turner_render_options render; /* with the scene's shaders, turner_shader_path_create */
-    const struct turner_render_options *asked; /* without */
+    struct turner_render_options render; /* without the scene's shaders */
     const char *path; /* of the scene's file, which is watched, */
     turner_scene_reader read;
     void *reader;
@@ -98,6 +98,8 @@ struct turner_painter {
     bool quit, fresh_wish, fresh_sight;
     struct turner_wish wish;
     struct turner_sight sight;      /* the newest, to be taken */
+    struct turner_scene_param *params; /* that were set, to be taken */
+    size_t param_count, param_capacity;
     bool explain;                   /* the pick is of what turner explain says */
     char *explanation;              /* that, to be taken */
     bool pick, fresh_picked, met;   /* what lies at a place is asked for; the answer is there */
@@ -115,7 +117,10 @@ struct turner_painter {
     enum turner_result result;
 
     /* The thread's own. */
-    struct turner_scene scene; /* shares all but camera and settings with that of the caller */
+    struct turner_scene scene; /* shares all but camera, settings and parameters with that of the
+                                  caller */
+    struct turner_shader_path path;      /* where its shaders are, now that they were looked for */
+    struct turner_render_options render; /* with that */
     struct turner_kernel kernel;
     struct turner_renderer renderer;
     struct turner_statistics made; /* what making the renderer took */
@@ -174,6 +179,9 @@ void turner_painter_show(struct turner_painter *painter, struct turner_scene *sc
  * more. */
 bool turner_painter_alert(struct turner_painter *painter, char alert[2048]);
 
+/* Gives a parameter of the shaders another value. */
+void turner_painter_set_param(struct turner_painter *painter, const char *name, const char *value);
+
 /* Asks for the point that is seen at (x, y) of the picture of the wish, in pixels. */
 void turner_painter_pick(struct turner_painter *painter, double x, double y);
 /* The same for what turner explain says; turner_painter_explained returns it, once, to be freed. */
@@ -205,9 +213,13 @@ enum turner_result turner_painter_poll(struct turner_painter *painter, bool *red
 bool turner_painter_outdated(struct turner_painter *painter); /* what is being drawn is */
 void turner_painter_unwatch(struct turner_painter *painter);
 void turner_painter_say_alert(struct turner_painter *painter, const char *alert);
+/* Looks where the scene's shaders are. */
+void turner_painter_find_shaders(struct turner_painter *painter);
 /* Takes what turner_painter_show left. */
 void turner_painter_take_scene(struct turner_painter *painter);
 
+/* params.c: takes what turner_painter_set_param left. */
+enum turner_result turner_painter_take_params(struct turner_painter *painter);
 /* Takes what turner_painter_paint left. */
 enum turner_result turner_painter_take_paint(struct turner_painter *painter);
 void turner_painter_clear(struct turner_painter *painter);

@@ -333,6 +333,7 @@ void turner_panel(struct turner_session *session)
     if (ui->open("turner", 0, WIDE, false)) {
         show_figures(session, ui);
         show_seen(session, ui);
+        turner_session_params(session, ui);
         if (ui->section("Settings", true))
             show_settings(session, ui);
         if (ui->section("Methods", false)) {

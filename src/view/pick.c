@@ -39,7 +39,7 @@ enum turner_result turner_painter_meet(struct turner_painter *painter, double x,
     TURNER_TRY_DONE(turner_layers_create(&layers, &scene));
     TURNER_TRY_DONE(turner_renderer_look(&painter->renderer, &scene));
     TURNER_TRY_DONE(turner_features_draw(&layers, &painter->renderer, &painter->kernel, &scene,
-                                         &painter->options.render, &unused));
+                                         &painter->render, &unused));
     double depth = (double)layers.real[TURNER_LAYER_DEPTH][0];
     struct turner_vec3 d =
         turner_vec3_normalize(turner_vec3_sub(scene.camera.at, scene.camera.from));

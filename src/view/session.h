@@ -2,8 +2,9 @@
 #ifndef TURNER_VIEW_SESSION_H
 #define TURNER_VIEW_SESSION_H
 
-#include "view/load.h"
+#include "render/params.h"
 #include "scene/camera_file.h"
+#include "view/load.h"
 #include "view/view.h"
 
 enum turner_drag { TURNER_DRAG_NONE, TURNER_DRAG_ORBIT, TURNER_DRAG_PAN, TURNER_DRAG_TURN };
@@ -33,7 +34,10 @@ struct turner_session {
     double click, click_x, click_y; /* when and where the last was */
     double clock;               /* when the camera was last moved by keys or by itself */
 
-    struct turner_scene scene;  /* as the panel has changed it: shares all but, once `owns`, */
+    struct turner_params params; /* of the shaders, as of a second ago; shown by the panel */
+    double params_next;         /* when they are looked at again */
+    struct turner_scene scene;  /* as the panel has changed it: shares all but `params` and, once
+                                   `owns`, */
     char *explanation;          /* of a pixel, that is shown; or NULL */
     char alert[2048];           /* what is wrong with the files, or "" */
     bool owns;                  /* materials and lights */
@@ -64,6 +68,9 @@ void turner_session_record_frame(struct turner_session *session); /* in every tu
 
 /* `output`, or the first name like it, with a number, that is free. */
 void turner_session_name(char name[1024], const char *output, const char *ending);
+
+/* params.c */
+void turner_session_params(struct turner_session *session, const struct turner_ui *ui);
 
 /* panel.c */
 void turner_panel(struct turner_session *session);

@@ -56,7 +56,7 @@ static bool fits(const struct turner_settings *built, const struct turner_settin
 
 static enum turner_result create(struct turner_painter *painter)
 {
-    const struct turner_render_options *options = &painter->options.render;
+    const struct turner_render_options *options = &painter->render;
     struct turner_statistics *made = &painter->made;
     struct turner_gpu *gpu = &painter->opening->gpu;
     const struct turner_methods *methods = &painter->scene.settings.methods;
@@ -65,6 +65,7 @@ static enum turner_result create(struct turner_painter *painter)
         turner_kernel_destroy(&painter->kernel);
     turner_painter_unwatch(painter);
     painter->since = turner_watch_now();
+    turner_painter_find_shaders(painter);
     if (!painter->count) {
         TURNER_TRY(turner_opening_compile(&painter->kernel, painter->opening, methods, options,
                                           made));
@@ -376,7 +377,7 @@ enum turner_result turner_painter_draw(struct turner_painter *painter,
     struct turner_scene scene = painter->scene;
     scene.settings = settings;
     struct drawing drawing = {painter, &settings, image, stage};
-    struct turner_render_options options = painter->options.render;
+    struct turner_render_options options = painter->render;
     options.progress = progress;
     options.user = &drawing;
     painter->own.statistics = painter->made;

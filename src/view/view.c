@@ -10,7 +10,6 @@
 
 #include "base/memory.h"
 #include "image/image.h"
-#include "render/shader_path.h"
 #include "view/camera.h"
 #include "view/session.h"
 
@@ -140,6 +139,8 @@ static enum turner_result present(struct turner_session *session, bool fresh)
     if (fresh && functions->picture(session->window, session->sight.rgba, session->sight.width,
                                     session->sight.height) != TURNER_WINDOW_OK)
         return turner_fail(TURNER_DEVICE, "%s", functions->reason(session->window));
+    if (fresh && session->sight.quick && !session->wish.moving)
+        session->params_next = 0; /* shaders may have been saved */
     bool boxes = fresh && (session->panel || session->wish.seen != TURNER_SEEN_PICTURE);
     session->settle = session->dirty || boxes ? 2 : session->settle > 0 ? session->settle - 1 : 0;
     session->dirty = false;
@@ -245,7 +246,9 @@ static void take_scene(struct turner_session *session)
     wish->settings.height = height;
     wish->moving = false;
     turner_panel_close(session);
+    turner_scene_free_params(&session->scene);
     session->scene = *scene;
+    turner_scene_own_params(&session->scene);
     session->material = session->light = 0;
     session->changed = session->moving = session->painted = false;
     turner_painter_show(&session->painter, scene, wish);
@@ -345,21 +348,19 @@ enum turner_result turner_view(const struct turner_view_options *options,
         .camera = options->camera,
         .clock = turner_seconds(),
     };
+    turner_scene_own_params(&session.scene);
     struct doorbell bell = {.mutex = PTHREAD_MUTEX_INITIALIZER};
     struct turner_painter_options painter = {
-        .render = options->render, .asked = &options->render, .path = options->path,
+        .render = options->render, .path = options->path,
         .read = options->read, .reader = options->reader, .write = options->write,
         .explain = options->explain,
         .wake = ring, .user = &bell};
-    struct turner_shader_path path;
     *report = (struct turner_view_report){0};
     TURNER_TRY(turner_signals_start());
-    turner_shader_path_create(&path, &painter.render, options->scene);
     enum turner_result result = turner_painter_start(&session.painter, options->scene,
                                                      &session.wish, options->opening, &painter);
     if (result != TURNER_OK) {
         turner_signals_stop();
-        turner_shader_path_destroy(&path);
         return result;
     }
     TURNER_TRY_DONE(open_window(&session));
@@ -379,7 +380,8 @@ done:
     turner_sight_destroy(&session.sight);
     turner_camera_path_destroy(&session.recorded);
     turner_panel_close(&session);
+    turner_scene_free_params(&session.scene);
+    turner_params_destroy(&session.params);
     free(session.explanation);
-    turner_shader_path_destroy(&path);
     return result;
 }

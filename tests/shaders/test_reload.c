@@ -76,15 +76,23 @@ static void follows_edits(void **state)
     expect_color(0);
 }
 
+static void write_with_parameters(int standard)
+{
+    char text[512];
+    snprintf(text, sizeof text,
+             "//!PARAM live float %d 0 9 \"\"\n"
+             "//!PARAM count const int 2 0 9 \"\"\n"
+             "vec3 user_background(vec3 d) { return vec3(live * float(count)); }\n", standard);
+    bench_write(&bench, "background.glsl", text, false);
+    assert_int_equal(bench_settle(&bench), TURNER_RELOAD_READY);
+    expect_color(2 * (float)standard);
+}
+
 static void sets_parameters(void **state)
 {
     (void)state;
-    bench_write(&bench, "background.glsl",
-                "//!PARAM live float 1 0 9 \"\"\n"
-                "//!PARAM count const int 2 0 9 \"\"\n"
-                "vec3 user_background(vec3 d) { return vec3(live * float(count)); }\n", false);
-    assert_int_equal(bench_settle(&bench), TURNER_RELOAD_READY);
-    expect_color(2);
+    write_with_parameters(3);
+    write_with_parameters(1); /* only a default is another one */
     assert_int_equal(bench.renderer.params.params.count, 2);
     turner_scene_set_param(bench.scene, "live", "4");
     assert_ok(turner_reload_set_params(bench.reload, bench.scene));

@@ -268,6 +268,48 @@ def panel(screen):
 
 
 @test
+def params(screen):
+    """Parameters of shaders have sliders: live ones, and const ones that make another kernel."""
+    size = (640, 480)
+    hook = """//!PARAM level float 0.25 0 4 "red"
+//!PARAM count const int 3 -4 9 "green, in tenths"
+//!PARAM blue float %s 0 1 "blue"
+vec3 user_background(vec3 direction)
+{
+    return vec3(level / 4.0, float(count) / 10.0, blue);
+}
+"""
+    text = SCENE.replace('"settings"', '"params": {"level": 1}, "settings"')
+    pathlib.Path("scene.json").write_text(text)
+    pathlib.Path("shaders/user").mkdir(parents=True)
+    pathlib.Path("shaders/user/background.glsl").write_text(hook % "0.5")
+    view = View(screen, "scene.json", "-q", "--size", "640x480", "-o", "shot.png", "--set",
+                "level=2").find()
+    def shows(*settings):
+        wanted = right_part(ppm_pixels(render("scene.json", "wanted.ppm", "--size", "640x480",
+                                              *settings))[2], *size)
+        return lambda: right_part(screen.shown(*size), *size) == wanted
+    wait_until("no picture", shows("--set", "level=2"))
+    view.key("Tab")
+    def slider(number):
+        return lambda: wait_until("no slider", lambda: sliders(screen, *size)[number:])[0]
+    wait_until("no sliders", lambda: len(sliders(screen, *size)) >= 3)
+    view.drag_until("no live one", shows("--set", "level=4"), 1, slider(0), 200, 0)
+    view.drag_until("no const one", shows("--set", "level=4", "--set", "count=9"), 1, slider(1),
+                    200, 0)
+    pathlib.Path("shaders/user/background.glsl").write_text(hook % "0.75")
+    chosen = ("--set", "level=4", "--set", "count=9")
+    wait_until("not the new default", shows(*chosen))
+    view.key("s")
+    wait_until("nothing was saved", pathlib.Path("shot.png").exists)
+    assert pathlib.Path("shot.png").read_bytes() == render(
+        "scene.json", "same.png", "--size", "640x480", *chosen), "other values in it"
+    pathlib.Path("scene.json").write_text(text.replace('"level": 1', '"level": 3'))
+    wait_until("not what the command line says", shows("--set", "level=2"))
+    view.quit()
+
+
+@test
 def rays(screen):
     """Ctrl+click lists what turner explain lists; a picture that moves takes no more memory."""
     view = opened(screen)
