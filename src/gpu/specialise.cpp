@@ -1,6 +1,5 @@
 /* The only file that speaks to SPIRV-Tools' optimiser, which is C++. */
 #include <cstring>
-#include <functional>
 #include <spirv-tools/optimizer.hpp>
 #include <spirv_cross/spirv.h>
 #include <string>
@@ -14,55 +13,6 @@ extern "C" {
 }
 
 using words = std::vector<uint32_t>;
-
-static enum turner_result run(words *out, const uint32_t *in, size_t count,
-                              const std::function<void(spvtools::Optimizer &)> &passes)
-{
-    std::string said;
-    spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_3);
-    optimizer.SetMessageConsumer([&said](spv_message_level_t level, const char *,
-                                         const spv_position_t &, const char *message) {
-        if (level <= SPV_MSG_ERROR && said.empty())
-            said = message;
-    });
-    passes(optimizer);
-    spvtools::OptimizerOptions options;
-    options.set_run_validator(false); /* turner_spirv_validate does that */
-    words result;
-    if (!optimizer.Run(in, count, &result, options))
-        return turner_fail(TURNER_BAD_INPUT, "SPIRV-Tools cannot specialise the shader: %s",
-                           said.empty() ? "no reason given" : said.c_str());
-    *out = std::move(result);
-    return TURNER_OK;
-}
-
-static enum turner_result fold(words *out, const struct turner_spirv *spirv,
-                               const struct turner_constant *constants, size_t count)
-{
-    std::unordered_map<uint32_t, words> values;
-    for (size_t i = 0; i < count; i++)
-        values[constants[i].id] = {constants[i].value};
-    return run(out, spirv->words, spirv->count, [&values](spvtools::Optimizer &optimizer) {
-        optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
-            .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
-            .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
-            .RegisterPass(spvtools::CreateCCPPass())
-            .RegisterPass(spvtools::CreateDeadBranchElimPass())
-            .RegisterPass(spvtools::CreateStripDebugInfoPass())
-            .RegisterPass(spvtools::CreateInlineExhaustivePass())
-            .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
-    });
-}
-
-/* Functions that return from within a loop are not inlined. */
-static bool calls(const words &spirv)
-{
-    const size_t header = 5;
-    for (size_t i = header; i < spirv.size() && spirv[i] >> 16; i += spirv[i] >> 16)
-        if ((spirv[i] & 0xffff) == SpvOpFunctionCall)
-            return true;
-    return false;
-}
 
 /* What inlining makes of a parameter that is a buffer's address is a variable that lacks the
  * decoration such variables must have. */
@@ -91,42 +41,60 @@ static void decorate(words &spirv)
                  missing.end());
 }
 
-static void put(struct turner_spirv *out, const words &from)
+static enum turner_result run(struct turner_spirv *out, const struct turner_spirv *spirv,
+                              const struct turner_constant *constants, size_t count, bool optimise)
 {
-    out->count = from.size();
-    out->words = static_cast<uint32_t *>(turner_calloc(from.size(), sizeof *out->words));
-    std::memcpy(out->words, from.data(), from.size() * sizeof *out->words);
+    *out = {};
+    std::unordered_map<uint32_t, words> values;
+    for (size_t i = 0; i < count; i++)
+        values[constants[i].id] = {constants[i].value};
+
+    std::string said;
+    spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_3);
+    optimizer.SetMessageConsumer([&said](spv_message_level_t level, const char *,
+                                         const spv_position_t &, const char *message) {
+        if (level <= SPV_MSG_ERROR && said.empty())
+            said = message;
+    });
+    optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
+        .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
+        .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
+        .RegisterPass(spvtools::CreateStripDebugInfoPass())
+        .RegisterPass(spvtools::CreateDeadBranchElimPass())
+        .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
+        .RegisterPass(spvtools::CreateMergeReturnPass()) /* others are not inlined */
+        .RegisterPass(spvtools::CreateInlineExhaustivePass())
+        .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
+        .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
+        .RegisterPass(spvtools::CreateLocalSingleStoreElimPass())
+        .RegisterPass(spvtools::CreateCCPPass())
+        .RegisterPass(spvtools::CreateDeadBranchElimPass())
+        .RegisterPass(spvtools::CreateAggressiveDCEPass())
+        .RegisterPass(spvtools::CreateBlockMergePass());
+    if (optimise)
+        optimizer.RegisterPerformancePasses();
+    spvtools::OptimizerOptions options;
+    options.set_run_validator(false); /* turner_spirv_validate does that */
+    words left;
+    if (!optimizer.Run(spirv->words, spirv->count, &left, options))
+        return turner_fail(TURNER_BAD_INPUT, "SPIRV-Tools cannot specialise the shader: %s",
+                           said.empty() ? "no reason given" : said.c_str());
+    decorate(left);
+    out->count = left.size();
+    out->words = static_cast<uint32_t *>(turner_calloc(left.size(), sizeof *out->words));
+    std::memcpy(out->words, left.data(), left.size() * sizeof *out->words);
+    return TURNER_OK;
 }
 
 enum turner_result turner_spirv_specialise(struct turner_spirv *out,
                                            const struct turner_spirv *spirv,
                                            const struct turner_constant *constants, size_t count)
 {
-    words left;
-    *out = {};
-    TURNER_TRY(fold(&left, spirv, constants, count));
-    TURNER_TRY(run(&left, left.data(), left.size(), [](spvtools::Optimizer &optimizer) {
-        optimizer.RegisterPerformancePasses();
-    }));
-    decorate(left);
-    put(out, left);
-    return TURNER_OK;
+    return run(out, spirv, constants, count, true);
 }
 
 enum turner_result turner_spirv_reduce(struct turner_spirv *out, const struct turner_spirv *spirv,
                                        const struct turner_constant *constants, size_t count)
 {
-    words left;
-    *out = {};
-    TURNER_TRY(fold(&left, spirv, constants, count));
-    if (!calls(left))
-        TURNER_TRY(run(&left, left.data(), left.size(), [](spvtools::Optimizer &optimizer) {
-            optimizer.RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
-                .RegisterPass(spvtools::CreateLocalSingleStoreElimPass())
-                .RegisterPass(spvtools::CreateAggressiveDCEPass())
-                .RegisterPass(spvtools::CreateBlockMergePass());
-        }));
-    decorate(left);
-    put(out, left);
-    return TURNER_OK;
+    return run(out, spirv, constants, count, false);
 }

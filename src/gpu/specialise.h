@@ -15,8 +15,8 @@ enum turner_result turner_spirv_specialise(struct turner_spirv *out,
 
 /* The same, but what is left computes as it did, to the last bit: constants are folded in, functions
  * put where they are called, and what cannot run or is not used is taken out, no more. A driver has
- * a third of the work with it. (Where a function cannot be put in place, what is not used stays: the
- * pass of SPIRV-Tools 2023.1 that would take it out crashes on calls.) */
+ * less than half of the work with it. (The pass of SPIRV-Tools 2023.1 that takes out what is not used
+ * crashes on some functions that are called: all must be put in place.) */
 enum turner_result turner_spirv_reduce(struct turner_spirv *out, const struct turner_spirv *spirv,
                                        const struct turner_constant *constants, size_t count);
 
