@@ -9,6 +9,7 @@
 
 #include <cjson/cJSON.h>
 
+#include "app/against.h"
 #include "app/explain.h"
 #include "image/atomic.h"
 #include "image/image.h"
@@ -39,6 +40,7 @@ static void print_help(void)
          "  R                       record a path of cameras, and end it: turner render --path draws it\n"
          "  V, Shift+V              what is shown: picture, normal, depth, … as --show\n"
          "  S                       save the picture, once it is finished\n"
+         "  X; H                    --against: the divider to an edge or the middle; heat map\n"
          "  Tab or P                panel\n"
          "  F1                      all keys\n"
          "  Esc or Q                quit\n\n"
@@ -55,15 +57,25 @@ static void print_help(void)
          "                         repeated)\n"
          "      --shader-dir DIR   take shaders from here first (may be repeated)\n"
          "      --no-scene-shaders leave out the shaders of the scene's own folder (docs/shaders.md)\n"
+         "      --against DIR      the window split in two, with a divider to be dragged: the right side\n"
+         "                         with the shaders of DIR (\"-\": turner's own), and for both sides\n"
+         "                         time, rays, error against the reference and how they differ\n"
+         "      --against NAME=VALUE  the same with another method, setting (depth, cutoff, error, spp,\n"
+         "                         shading, shadows, exposure, transfer) or parameter of the shaders\n"
+         "                         (may be repeated)\n"
          "      --show WHAT        picture | normal | depth | id | rays | recursion | pruned | error |\n"
-         "                         nonfinite | difference: to the reference, of a small picture\n"
+         "                         nonfinite | difference: to the reference, of a small picture;\n"
+         "                         against: where the two sides of --against differ\n"
          "      --spin SECONDS     the camera goes around by itself, once in so long\n"
          "      --seconds S        close after so long\n"
          "      --stats FILE       time to the first picture, pictures a second while moving and what\n"
          "                         was given up for them, as JSON (- for stdout)\n"
          "  -q, --quiet            no warnings, no word on how to get help\n"
          "  -h, --help             this text\n\n"
-         "Example: turner view scenes/whitted1980.json --size 1280x720");
+         "Examples:\n"
+         "  turner view scenes/whitted1980.json --size 1280x720\n"
+         "  turner view scenes/metals.json --against shaders/examples/blinn\n"
+         "  turner view scenes/mirrors.json --against depth=3 --against fresnel=schlick");
 }
 
 struct arguments {
@@ -72,9 +84,10 @@ struct arguments {
     bool quiet;
     int seen;
     struct turner_scene_options options;
+    struct turner_second_side against;
 };
 
-enum { SPIN = TURNER_OPTION_OWN, SECONDS, STATS, SHOW };
+enum { SPIN = TURNER_OPTION_OWN, SECONDS, STATS, SHOW, AGAINST };
 
 static const struct option long_options[] = {
     {"output", required_argument, NULL, 'o'},
@@ -96,6 +109,7 @@ static const struct option long_options[] = {
     {"shader-dir", required_argument, NULL, TURNER_OPTION_SHADER_DIR},
     {"set", required_argument, NULL, TURNER_OPTION_SET},
     {"no-scene-shaders", no_argument, NULL, TURNER_OPTION_NO_SCENE_SHADERS},
+    {"against", required_argument, NULL, AGAINST},
     {"show", required_argument, NULL, SHOW},
     {"spin", required_argument, NULL, SPIN},
     {"seconds", required_argument, NULL, SECONDS},
@@ -121,6 +135,7 @@ static enum turner_result take(struct arguments *a, int option, char **argv)
     case SECONDS: return turner_option_real(&a->seconds, "--seconds", optarg, 0.1, 1e6);
     case SHOW: return take_seen(&a->seen, optarg);
     case STATS: a->stats = optarg; return TURNER_OK;
+    case AGAINST: return turner_side_take(&a->against, optarg, argv);
     }
     return turner_scene_option_take(&a->options, option, argv);
 }
@@ -166,6 +181,12 @@ static enum turner_result read_scene(void *user, struct turner_scene **scene)
     return result;
 }
 
+static enum turner_result read_second(void *user, struct turner_scene **scene)
+{
+    const struct arguments *a = user;
+    return turner_side_load(scene, &a->against);
+}
+
 /* As turner explain does it, in the middle of the pixel. */
 static enum turner_result explain_pixel(FILE *out, const struct turner_scene *scene,
                                         const struct turner_render_options *options, int x, int y)
@@ -200,6 +221,34 @@ static int by_size(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
+static void add_error(cJSON *object, const char *name, const struct turner_comparison *comparison)
+{
+    cJSON *error = cJSON_AddObjectToObject(object, name);
+    cJSON_AddNumberToObject(error, "rmse", comparison->rmse);
+    cJSON_AddNumberToObject(error, "largest", comparison->largest);
+    cJSON_AddNumberToObject(error, "pixels_over", (double)comparison->pixels_over);
+    cJSON_AddNumberToObject(error, "pixels", (double)comparison->pixels);
+}
+
+static void add_sides(cJSON *object, const struct turner_view_report *report)
+{
+    static const char *const names[] = {"a", "b"};
+    for (int i = 0; i < 2; i++) {
+        const struct turner_statistics *s = &report->side[i].statistics;
+        cJSON *side = cJSON_AddObjectToObject(object, names[i]);
+        cJSON_AddNumberToObject(side, "seconds", report->side[i].seconds);
+        cJSON *rays = cJSON_AddObjectToObject(side, "rays");
+        cJSON_AddNumberToObject(rays, "camera", (double)s->camera_rays);
+        cJSON_AddNumberToObject(rays, "reflected", (double)s->reflected_rays);
+        cJSON_AddNumberToObject(rays, "refracted", (double)s->refracted_rays);
+        cJSON_AddNumberToObject(rays, "shadow", (double)s->shadow_rays);
+        if (report->side[i].compared)
+            add_error(side, "error", &report->side[i].error);
+    }
+    if (report->differ_known)
+        add_error(object, "difference", &report->difference);
+}
+
 static char *report_json(struct turner_view_report *report)
 {
     cJSON *object = cJSON_CreateObject();
@@ -223,6 +272,8 @@ static char *report_json(struct turner_view_report *report)
         cJSON_AddNumberToObject(moving, "scale", report->scale);
         cJSON_AddNumberToObject(moving, "depth", report->depth);
     }
+    if (report->sides)
+        add_sides(object, report);
     char *text = cJSON_Print(object);
     cJSON_Delete(object);
     return text;
@@ -251,7 +302,7 @@ static void default_output(char output[256], const char *scene)
 
 static enum turner_result load_and_view(struct arguments *a)
 {
-    struct turner_scene *scene;
+    struct turner_scene *scene, *second = NULL;
     struct turner_opening opening;
     struct turner_view_report report = {0};
     char output[256];
@@ -280,9 +331,21 @@ static enum turner_result load_and_view(struct arguments *a)
         .spin = a->spin,
         .seconds = a->seconds,
     };
+    struct turner_against_options against = {.render = a->against.render,
+                                             .read = read_second,
+                                             .reader = a,
+                                             .adapt = turner_side_adapt,
+                                             .keeps = turner_side_keeps,
+                                             .user = &a->against,
+                                             .name = a->against.name};
+    if (result == TURNER_OK && a->against.given)
+        result = turner_side_load(&second, &a->against);
+    against.scene = second;
+    options.against = second ? &against : NULL;
     if (result == TURNER_OK)
         result = turner_view(&options, &report);
     turner_scene_destroy(scene);
+    turner_scene_destroy(second);
     if (a->stats && (result == TURNER_OK || result == TURNER_INTERRUPTED)) {
         enum turner_result written = write_report(a->stats, &report);
         result = written == TURNER_OK ? result : written;
@@ -295,7 +358,9 @@ done:
 
 enum turner_result turner_cmd_view(int argc, char **argv)
 {
-    struct arguments a = {.options = TURNER_SCENE_OPTIONS, .start = turner_seconds()};
+    struct arguments a = {.options = TURNER_SCENE_OPTIONS,
+                          .against = {.other = TURNER_SCENE_OPTIONS},
+                          .start = turner_seconds()};
     opterr = 0;
     for (int option; (option = getopt_long(argc, argv, "o:d:m:qh", long_options, NULL)) != -1;) {
         if (option == 'h') {
@@ -307,6 +372,12 @@ enum turner_result turner_cmd_view(int argc, char **argv)
     if (optind + 1 != argc)
         return turner_fail(TURNER_USAGE, "view takes one scene; see turner view --help");
     a.scene = argv[optind];
+    a.against.first = &a.options;
+    a.against.path = a.scene;
+    turner_side_finish(&a.against);
+    if (a.seen == TURNER_SEEN_AGAINST && !a.against.given)
+        return turner_fail(TURNER_USAGE, "--show against shows how two sides differ; --against says "
+                                         "what the second is");
     turner_set_quiet(a.quiet);
     if (a.options.render.device && strcmp(a.options.render.device, "reference") == 0)
         return turner_fail(TURNER_USAGE, "the reference is too slow for a window; turner render "

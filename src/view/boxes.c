@@ -18,6 +18,7 @@ static const char *const keys[][2] = {
     {"R", "record a path of cameras, and end it"},
     {"V, Shift+V", "what is shown: picture, normal, depth …"},
     {"S", "save the picture, once it is finished"},
+    {"X; H", "--against: the divider to the middle or an edge; heat map"},
     {"Tab, P", "panel"},
     {"F1", "these keys"},
     {"Esc, Q", "quit"},
@@ -43,22 +44,30 @@ static void show_toast(const struct turner_session *session, const struct turner
 
 static void show_alert(const struct turner_session *session, const struct turner_ui *ui)
 {
-    if (!session->alert[0])
+    char text[4200];
+    turner_against_alert(session, text);
+    if (!text[0])
         return;
     ui->open("##alert", 5, 44, true);
-    ui->alert(session->alert);
+    ui->alert(text);
     ui->close();
 }
 
 static void show_legend(const struct turner_session *session, const struct turner_ui *ui)
 {
     char text[256];
+    const struct turner_against *against = session->against;
     if (session->wish.seen == TURNER_SEEN_PICTURE)
         return;
     snprintf(text, sizeof text, "%s%s%s", turner_seen_name(session->wish.seen),
              session->sight.legend[0] ? ": " : "", session->sight.legend);
     if (session->wish.seen == TURNER_SEEN_DIFFERENCE && !session->sight.compared)
         snprintf(text, sizeof text, "difference: the reference is at work");
+    if (session->wish.seen == TURNER_SEEN_AGAINST && against->compared)
+        snprintf(text, sizeof text, "A against B: white %.3g, rms %.3g; %llu of %llu pixels differ",
+                 against->difference.largest, against->difference.rmse,
+                 (unsigned long long)against->difference.pixels_over,
+                 (unsigned long long)against->difference.pixels);
     ui->open("##legend", 4, 0, true);
     ui->text(text);
     ui->close();
@@ -68,6 +77,7 @@ void turner_session_boxes(struct turner_session *session)
 {
     const struct turner_ui *ui = &session->functions->ui;
     ui->begin(session->window);
+    turner_against_boxes(session);
     if (session->panel)
         turner_panel(session);
     if (session->keys)

@@ -34,14 +34,18 @@ static void press(struct turner_session *session, const struct turner_window_eve
     session->x = event->x;
     session->y = event->y;
     if (event->button == GLFW_MOUSE_BUTTON_LEFT && event->mods & GLFW_MOD_CONTROL) {
-        turner_painter_explain(&session->painter, event->x, event->y);
+        turner_painter_explain(turner_against_at(session, event->x), event->x, event->y);
         turner_session_say(session, "following the rays of pixel %d,%d", (int)event->x,
                            (int)event->y);
         return;
     }
+    if (event->button == GLFW_MOUSE_BUTTON_LEFT && turner_against_on(session, event->x)) {
+        session->drag = TURNER_DRAG_DIVIDER;
+        return;
+    }
     if (event->button == GLFW_MOUSE_BUTTON_LEFT && event->mods == 0) {
         if (near && now - session->click < CLICK_SECONDS)
-            turner_painter_pick(&session->painter, event->x, event->y);
+            turner_painter_pick(turner_against_at(session, event->x), event->x, event->y);
         session->click = now;
         session->click_x = event->x;
         session->click_y = event->y;
@@ -61,9 +65,13 @@ static void move(struct turner_session *session, const struct turner_window_even
     double width = session->wish.settings.width, height = session->wish.settings.height;
     session->x = event->x;
     session->y = event->y;
-    session->dirty = session->dirty || session->panel;
+    session->dirty = session->dirty || session->panel || session->against;
     if (session->drag == TURNER_DRAG_NONE || (dx == 0 && dy == 0))
         return;
+    if (session->drag == TURNER_DRAG_DIVIDER) {
+        turner_against_move(session, event->x);
+        return;
+    }
     if (session->drag == TURNER_DRAG_ORBIT) /* across the window is half around */
         turner_camera_orbit(camera, -dx / width * PI, dy / height * PI);
     else if (session->drag == TURNER_DRAG_TURN) /* what was under the pointer stays there */
@@ -138,9 +146,34 @@ static void choose_camera(struct turner_session *session, int number)
     session->changed = true;
 }
 
+static void against_key(struct turner_session *session, int key)
+{
+    double split = session->against->split, width = session->wish.settings.width;
+    bool heat = session->wish.seen == TURNER_SEEN_AGAINST;
+    if (key == GLFW_KEY_X)
+        turner_against_move(session, split == 1 ? 0 : split == 0 ? width / 2 : width);
+    else
+        turner_session_see(session, heat ? TURNER_SEEN_PICTURE : TURNER_SEEN_AGAINST);
+}
+
+/* Of both sides, where there are two. */
+static void shoot(struct turner_session *session)
+{
+    char name[1024], ending[48];
+    if (session->against && session->against->begun) {
+        const char *output = session->options->output, *dot = strrchr(output, '.');
+        snprintf(ending, sizeof ending, "-against%.32s", dot ? dot : "");
+        turner_session_name(name, output, ending);
+        turner_painter_shoot(&session->against->painter, name);
+    }
+    turner_session_name(name, session->options->output, NULL);
+    turner_painter_shoot(&session->painter, name);
+    turner_session_say(session, "%s as soon as the picture is finished", name);
+}
+
 static void key(struct turner_session *session, const struct turner_window_event *event)
 {
-    char name[1024];
+    unsigned kinds = (unsigned)turner_session_kinds(session);
     hold(session, event->key, event->mods, true);
     if (flight_of(session, event->key) >= 0 || event->again)
         return;
@@ -166,14 +199,14 @@ static void key(struct turner_session *session, const struct turner_window_event
     case GLFW_KEY_R: turner_session_record(session); break;
     case GLFW_KEY_V:
         turner_session_see(session, (session->wish.seen +
-                                     (event->mods & GLFW_MOD_SHIFT ? TURNER_SEEN_KINDS - 1 : 1)) %
-                                        TURNER_SEEN_KINDS);
+                                     (event->mods & GLFW_MOD_SHIFT ? kinds - 1u : 1u)) % kinds);
         break;
-    case GLFW_KEY_S:
-        turner_session_name(name, session->options->output, NULL);
-        turner_painter_shoot(&session->painter, name);
-        turner_session_say(session, "%s as soon as the picture is finished", name);
+    case GLFW_KEY_X:
+    case GLFW_KEY_H:
+        if (session->against)
+            against_key(session, event->key);
         break;
+    case GLFW_KEY_S: shoot(session); break;
     }
     if (event->key >= GLFW_KEY_0 && event->key <= GLFW_KEY_9)
         choose_camera(session, event->key - GLFW_KEY_0);

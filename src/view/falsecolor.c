@@ -19,6 +19,7 @@ static const struct {
     [TURNER_SEEN_ERROR] = {"error", TURNER_LAYER_ERROR},
     [TURNER_SEEN_NONFINITE] = {"nonfinite", TURNER_LAYER_NONFINITE},
     [TURNER_SEEN_DIFFERENCE] = {"difference", -1},
+    [TURNER_SEEN_AGAINST] = {"against", -1},
 };
 
 const char *turner_seen_name(enum turner_seen seen)
@@ -158,6 +159,7 @@ void turner_false_color(struct turner_image *colors, char legend[160], enum turn
     case TURNER_SEEN_ERROR: color_heat(colors, legend, seen, layers, pixels); break;
     case TURNER_SEEN_PICTURE:
     case TURNER_SEEN_DIFFERENCE:
+    case TURNER_SEEN_AGAINST:
     case TURNER_SEEN_KINDS:
         for (size_t i = 0; i < 4 * pixels; i++)
             colors->rgba[i] = (float)clamped((double)image->rgba[i]) / 4;

@@ -44,6 +44,7 @@ bool turner_painter_take(struct turner_painter *painter, struct turner_sight *si
 void turner_sight_destroy(struct turner_sight *sight)
 {
     free(sight->rgba);
+    free(sight->linear);
     *sight = (struct turner_sight){0};
 }
 
@@ -152,6 +153,25 @@ static void say(struct turner_painter *painter, const char *text)
     painter->options.wake(painter->options.user);
 }
 
+/* Parameters that these shaders do not have are those of the other side. */
+static void keep_known(struct turner_scene *scene, const struct turner_render_options *render)
+{
+    struct turner_params params;
+    size_t kept = 0;
+    bool found = turner_params_find(&params, NULL, render) == TURNER_OK;
+    for (size_t i = 0; i < scene->param_count && found; i++) {
+        struct turner_scene_param param = scene->params[i];
+        if (turner_params_get(&params, param.name)) {
+            scene->params[kept++] = param;
+        } else {
+            free(param.name);
+            free(param.value);
+        }
+    }
+    scene->param_count = found ? kept : scene->param_count;
+    turner_params_destroy(&params);
+}
+
 static void write_shot(struct turner_painter *painter)
 {
     pthread_mutex_lock(&painter->mutex);
@@ -170,6 +190,8 @@ static void write_shot(struct turner_painter *painter)
         scene.settings.exposure = 0;
         scene.settings.transfer = TURNER_TRANSFER_LINEAR;
     }
+    if (painter->options.turn)
+        keep_known(&scene, &painter->render);
     if (turner_params_settle(&scene, &painter->render) == TURNER_OK &&
         painter->options.write(path, &scene, image, &statistics) == TURNER_OK)
         snprintf(text, sizeof text, "saved %s", path);
@@ -279,38 +301,72 @@ static enum turner_result prepare(struct turner_painter *painter, const struct t
     return TURNER_OK;
 }
 
+/* What is to be drawn, and how far it is. */
+struct progress {
+    struct turner_wish wish;
+    enum turner_stage stage;
+    bool waited; /* for another wish, before going on */
+};
+
+/* All that takes the device. `again`: the picture is to be begun anew. */
+static enum turner_result go_on(struct turner_painter *painter, struct progress *at, bool again)
+{
+    if (again) {
+        TURNER_TRY(prepare(painter, &at->wish));
+        at->stage = painter->blind ? TURNER_STAGE_DONE : turner_painter_first(painter, &at->wish);
+        at->waited = false;
+    }
+    if (painter->ready)
+        TURNER_TRY(answer_pick(painter));
+    if (at->stage == TURNER_STAGE_DONE)
+        return painter->ready ? turner_painter_measure(painter, &at->wish) : TURNER_OK;
+    enum turner_result result = turner_painter_draw(painter, &at->wish, at->stage);
+    if (result == TURNER_INTERRUPTED)
+        return TURNER_OK; /* a wish is there, or it is the end */
+    TURNER_TRY(result);
+    at->stage = painter->own.stage == TURNER_STAGE_DONE ? TURNER_STAGE_DONE
+                                                        : turner_painter_next(&at->wish, at->stage);
+    return TURNER_OK;
+}
+
+static bool has_work(struct turner_painter *painter, const struct progress *at)
+{
+    pthread_mutex_lock(&painter->mutex);
+    bool asked = painter->pick;
+    pthread_mutex_unlock(&painter->mutex);
+    return asked || at->stage != TURNER_STAGE_DONE ||
+           (at->wish.measure && !painter->own.compared && !painter->own.hooked && !painter->blind);
+}
+
 static enum turner_result work(struct turner_painter *painter)
 {
-    struct turner_wish wish;
-    bool fresh, waited = false, redraw;
-    enum turner_stage stage = TURNER_STAGE_DONE;
+    struct progress at = {.stage = TURNER_STAGE_DONE};
+    struct turner_turn *turn = painter->options.turn;
+    bool fresh, redraw;
     for (;;) {
-        double seconds = stage == TURNER_STAGE_DONE ? POLL_SECONDS
-                         : stage == TURNER_STAGE_SINGLE && wish.moving && !waited ? REST_SECONDS
-                                                                                  : 0;
-        waited = true;
-        if (!wait_for(painter, &wish, &fresh, stage == TURNER_STAGE_DONE, seconds))
+        bool rest = at.stage == TURNER_STAGE_DONE;
+        double seconds = rest                                                         ? POLL_SECONDS
+                         : at.stage == TURNER_STAGE_SINGLE && at.wish.moving && !at.waited
+                             ? REST_SECONDS
+                             : 0;
+        at.waited = true;
+        if (!wait_for(painter, &at.wish, &fresh, rest, seconds))
             return TURNER_OK;
         TURNER_TRY(turner_painter_poll(painter, &redraw));
-        if (fresh || redraw) {
-            TURNER_TRY(prepare(painter, &wish));
-            stage = painter->blind ? TURNER_STAGE_DONE : turner_painter_first(painter, &wish);
-            waited = false;
+        bool again = fresh || redraw;
+        if (again || has_work(painter, &at)) {
+            if (turn)
+                turner_turn_take(turn);
+            enum turner_result result = go_on(painter, &at, again);
+            if (turn)
+                turner_turn_give(turn);
+            TURNER_TRY(result);
         }
-        if (painter->ready)
-            TURNER_TRY(answer_pick(painter));
-        if (stage == TURNER_STAGE_DONE) {
+        if (at.stage == TURNER_STAGE_DONE) {
             turner_painter_watch(painter);
             if (painter->ready)
                 write_shot(painter);
-            continue;
         }
-        enum turner_result result = turner_painter_draw(painter, &wish, stage);
-        if (result == TURNER_INTERRUPTED)
-            continue; /* a wish is there, or it is the end */
-        TURNER_TRY(result);
-        stage = painter->own.stage == TURNER_STAGE_DONE ? TURNER_STAGE_DONE
-                                                        : turner_painter_next(&wish, stage);
     }
 }
 

@@ -13,6 +13,7 @@
 #include "render/shader_path.h"
 #include "scene/scene.h"
 #include "view/pace.h"
+#include "view/turn.h"
 
 /* What is shown of the scene. */
 enum turner_seen {
@@ -26,6 +27,7 @@ enum turner_seen {
     TURNER_SEEN_ERROR,
     TURNER_SEEN_NONFINITE,
     TURNER_SEEN_DIFFERENCE, /* to the reference, of a small picture */
+    TURNER_SEEN_AGAINST,    /* of the two pictures of --against: to a painter the same as PICTURE */
     TURNER_SEEN_KINDS
 };
 
@@ -36,6 +38,9 @@ struct turner_wish {
     struct turner_settings settings;
     double interval; /* of the frames that were shown last, seconds; 0: not known */
     bool moving; /* there is more to come: wait a little before going on to better pictures */
+    bool measure; /* when it is finished, find its error, too: against the reference with */
+    struct turner_settings truth;
+    unsigned number; /* of the window's wishes; those of two painters that belong together have one */
 };
 
 enum turner_stage {
@@ -58,9 +63,13 @@ struct turner_sight {
     struct turner_statistics statistics;
     enum turner_seen seen;
     char legend[160]; /* what its colours mean; of the picture: "" */
-    bool compared;    /* DIFFERENCE: these are known */
+    bool compared;    /* DIFFERENCE, or it was to be measured: these are known, of a small picture */
     struct turner_comparison comparison;
-    double reference_seconds;
+    double compared_seconds, reference_seconds; /* that the two took */
+    bool hooked;      /* shaders that the reference knows nothing of: it is not compared */
+    float *linear;    /* of the full picture, RGB and one unused, where there are two painters; */
+    size_t linear_room; /* or nothing, 0 */
+    unsigned number;  /* of the wish */
     unsigned count; /* of pictures before it that were not parts of one */
 };
 
@@ -85,6 +94,7 @@ struct turner_painter_options {
     turner_scene_reader read;
     void *reader;
     turner_picture_writer write;
+    struct turner_turn *turn; /* of two painters; or NULL */
     void (*wake)(void *user); /* there is something new; called in the painter's thread */
     void *user;
 };
@@ -139,6 +149,7 @@ struct turner_painter {
     bool blind;                    /* there is no renderer for the wish: a file is broken */
     char file_alert[2048];         /* of the scene's file */
     struct turner_image quick, full, colors; /* the last: layers as colours */
+    const struct turner_image *last; /* of them, that was shown last */
     struct turner_sight own; /* being filled */
     struct turner_packer packer;
     double exposure;
@@ -234,8 +245,14 @@ uint32_t turner_seen_layers(enum turner_seen seen); /* that it takes: turner_lay
 void turner_false_color(struct turner_image *colors, char legend[160], enum turner_seen seen,
                         const struct turner_layers *layers, const struct turner_image *image);
 
-/* compare.c: fills `colors` and what own says of the comparison. */
+/* compare.c: fills what `own` says of the comparison and, unless NULL, a heat map. */
 enum turner_result turner_painter_compare(struct turner_painter *painter,
-                                          const struct turner_render_options *options);
+                                          const struct turner_wish *wish,
+                                          const struct turner_render_options *options,
+                                          struct turner_image *heat);
+/* stages.c: compares the finished picture if it is to be measured, and shows it once more; puts it
+ * off when there is a wish or the other painter wants its turn. */
+enum turner_result turner_painter_measure(struct turner_painter *painter,
+                                          const struct turner_wish *wish);
 
 #endif

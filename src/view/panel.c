@@ -90,7 +90,8 @@ static void show_comparison(struct turner_session *session, const struct turner_
     row(ui, "off by > 1/255", "%llu of %llu pixels",
         (unsigned long long)sight->comparison.pixels_over,
         (unsigned long long)sight->comparison.pixels);
-    row(ui, "seconds", "%.3f, reference %.2f", sight->seconds, sight->reference_seconds);
+    row(ui, "seconds", "%.3f, reference %.2f", sight->compared_seconds,
+        sight->reference_seconds);
 }
 
 /* ---- settings ---- */
@@ -311,19 +312,29 @@ static void show_camera(struct turner_session *session, const struct turner_ui *
     }
 }
 
+int turner_session_kinds(const struct turner_session *session)
+{
+    return session->against ? TURNER_SEEN_KINDS : TURNER_SEEN_AGAINST;
+}
+
 void turner_session_see(struct turner_session *session, enum turner_seen seen)
 {
+    enum turner_seen before = session->wish.seen;
+    bool same = (seen == TURNER_SEEN_PICTURE && before == TURNER_SEEN_AGAINST) ||
+                (seen == TURNER_SEEN_AGAINST && before == TURNER_SEEN_PICTURE);
     session->wish.seen = seen;
-    session->changed = session->dirty = true;
+    session->changed = session->changed || !same; /* the painters draw the same for both */
+    session->dirty = true;
+    session->composed = false;
 }
 
 static void show_seen(struct turner_session *session, const struct turner_ui *ui)
 {
     const char *names[TURNER_SEEN_KINDS];
-    int seen = (int)session->wish.seen;
-    for (int i = 0; i < TURNER_SEEN_KINDS; i++)
+    int seen = (int)session->wish.seen, kinds = turner_session_kinds(session);
+    for (int i = 0; i < kinds; i++)
         names[i] = turner_seen_name((enum turner_seen)i);
-    if (ui->choose("show", &seen, names, TURNER_SEEN_KINDS))
+    if (ui->choose("show", &seen, names, kinds))
         turner_session_see(session, (enum turner_seen)seen);
 }
 
@@ -333,6 +344,7 @@ void turner_panel(struct turner_session *session)
     if (ui->open("turner", 0, WIDE, false)) {
         show_figures(session, ui);
         show_seen(session, ui);
+        turner_against_rows(session);
         turner_session_params(session, ui);
         if (ui->section("Settings", true))
             show_settings(session, ui);

@@ -101,6 +101,12 @@ static void look(struct turner_session *session)
     turner_shader_path_destroy(&path);
 }
 
+static bool takes_too(const struct turner_against *against, const char *param)
+{
+    return against && against->begun &&
+           !against->options->keeps(against->options->user, param);
+}
+
 void turner_session_params(struct turner_session *session, const struct turner_ui *ui)
 {
     look(session);
@@ -117,6 +123,8 @@ void turner_session_params(struct turner_session *session, const struct turner_u
             turner_param_print(text, param, &value);
             turner_scene_set_param(&session->scene, param->name, text);
             turner_painter_set_param(&session->painter, param->name, text);
+            if (takes_too(session->against, param->name))
+                turner_painter_set_param(&session->against->painter, param->name, text);
             session->changed = session->moving = true;
         }
         ui->note(param->text);

@@ -4,16 +4,24 @@
 
 #include "render/params.h"
 #include "scene/camera_file.h"
+#include "view/against.h"
 #include "view/load.h"
 #include "view/view.h"
 
-enum turner_drag { TURNER_DRAG_NONE, TURNER_DRAG_ORBIT, TURNER_DRAG_PAN, TURNER_DRAG_TURN };
+enum turner_drag {
+    TURNER_DRAG_NONE,
+    TURNER_DRAG_ORBIT,
+    TURNER_DRAG_PAN,
+    TURNER_DRAG_TURN,
+    TURNER_DRAG_DIVIDER
+};
 
 struct turner_session {
     const struct turner_view_options *options;
     const struct turner_window_functions *functions;
     struct turner_window *window;
     struct turner_painter painter;
+    struct turner_against *against; /* the second picture, or NULL */
     struct turner_view_report *report;
 
     struct turner_wish wish;    /* as last told to the painter, or about to be */
@@ -21,6 +29,7 @@ struct turner_session {
     int camera;                 /* the number of the scene's that was chosen last */
     struct turner_sight sight;  /* that the window shows */
     bool changed, moving;       /* the wish; it does so by hand or by itself */
+    bool composed;              /* what the window has of the picture, or of both, is up to date */
     bool dirty;                 /* the window is to be shown anew */
     int settle;                 /* times it is to be shown after that: boxes find their size */
     bool quit;
@@ -75,6 +84,7 @@ void turner_session_params(struct turner_session *session, const struct turner_u
 /* panel.c */
 void turner_panel(struct turner_session *session);
 void turner_panel_close(struct turner_session *session);
+int turner_session_kinds(const struct turner_session *session); /* that can be seen */
 void turner_session_see(struct turner_session *session, enum turner_seen seen);
 
 /* boxes.c: everything over the picture. */

@@ -112,6 +112,8 @@ enum turner_result turner_painter_prepare(struct turner_painter *painter,
     int depth = wish->settings.error > 0 ? QUICK_DEPTH : wish->settings.depth;
     if (!ready || depth != painter->pace.depth[0])
         turner_pace_start(&painter->pace, depth);
+    if (painter->options.turn && painter->pace.seconds == TURNER_PACE_SECONDS)
+        painter->pace.seconds /= 2; /* the other one is to be drawn in a frame, too */
     return TURNER_OK;
 }
 
@@ -193,6 +195,21 @@ static void pack(struct turner_painter *painter, const struct turner_image *imag
     turner_parallel_for((uint32_t)((image->height + rows.rows - 1) / rows.rows), pack_rows, &rows);
 }
 
+/* For the window to compare it with that of the other painter. */
+static void keep_linear(struct turner_painter *painter, const struct turner_image *image,
+                        enum turner_stage stage)
+{
+    struct turner_sight *own = &painter->own;
+    size_t floats = 4 * (size_t)image->width * (size_t)image->height;
+    if (!painter->options.turn || stage != TURNER_STAGE_DONE)
+        return;
+    if (own->linear_room < floats) {
+        own->linear = turner_realloc(own->linear, floats, sizeof *own->linear);
+        own->linear_room = floats;
+    }
+    memcpy(own->linear, image->rgba, floats * sizeof *own->linear);
+}
+
 static void publish(struct turner_painter *painter, const struct turner_image *image,
                     const struct turner_settings *settings, enum turner_stage stage, double share)
 {
@@ -203,6 +220,8 @@ static void publish(struct turner_painter *painter, const struct turner_image *i
     own->share = share;
     own->seconds = turner_seconds() - painter->started;
     own->count = painter->count;
+    painter->last = image;
+    keep_linear(painter, image, stage);
     struct turner_sight said = *own;
     pthread_mutex_lock(&painter->mutex);
     old = painter->sight;
@@ -212,6 +231,8 @@ static void publish(struct turner_painter *painter, const struct turner_image *i
     *own = said;
     own->rgba = old.rgba;
     own->room = old.room;
+    own->linear = old.linear;
+    own->linear_room = old.linear_room;
     painter->shown = turner_seconds();
     painter->options.wake(painter->options.user);
 }
@@ -224,6 +245,7 @@ struct drawing {
     const struct turner_settings *settings;
     struct turner_image *image;
     enum turner_stage stage;
+    bool gives_way; /* to the other painter */
 };
 
 static bool progress(double share, void *user)
@@ -236,7 +258,8 @@ static bool progress(double share, void *user)
     if (drawing->stage == TURNER_STAGE_QUICK)
         return !quit; /* soon finished: a frame that is given up is one that is missed */
     double now = turner_seconds();
-    go_on = go_on && !turner_painter_outdated(painter);
+    go_on = go_on && !turner_painter_outdated(painter) &&
+            !(drawing->gives_way && turner_turn_wanted(painter->options.turn));
     if (go_on && share < 1 && drawing->image && now - painter->shown > PART_SECONDS &&
         now - painter->started > PART_FIRST)
         publish(painter, drawing->image, drawing->settings, drawing->stage, share);
@@ -353,7 +376,7 @@ static enum turner_result draw_seen(struct turner_painter *painter,
     turner_false_color(&painter->colors, painter->own.legend, wish->seen, &layers, image);
     if (wish->seen == TURNER_SEEN_DIFFERENCE &&
         turner_painter_next(wish, painter->own.stage) == TURNER_STAGE_DONE)
-        result = turner_painter_compare(painter, options);
+        result = turner_painter_compare(painter, wish, options, &painter->colors);
 done:
     turner_layers_destroy(&layers);
     return result;
@@ -376,7 +399,7 @@ enum turner_result turner_painter_draw(struct turner_painter *painter,
 
     struct turner_scene scene = painter->scene;
     scene.settings = settings;
-    struct drawing drawing = {painter, &settings, image, stage};
+    struct drawing drawing = {painter, &settings, image, stage, false};
     struct turner_render_options options = painter->render;
     options.progress = progress;
     options.user = &drawing;
@@ -388,6 +411,8 @@ enum turner_result turner_painter_draw(struct turner_painter *painter,
     painter->own.seen = wish->seen;
     painter->own.legend[0] = 0;
     painter->own.compared = false;
+    painter->own.hooked = painter->kernel.hooks || painter->renderer.post.wanted;
+    painter->own.number = wish->number;
     if (wish->seen == TURNER_SEEN_PICTURE) {
         TURNER_TRY(turner_renderer_draw(&painter->renderer, image, &options,
                                         &painter->own.statistics));
@@ -404,5 +429,27 @@ enum turner_result turner_painter_draw(struct turner_painter *painter,
     if (stage == TURNER_STAGE_QUICK)
         turner_pace_took(&painter->pace, settings.depth,
                          (double)settings.width * settings.height, painter->own.seconds);
+    return TURNER_OK;
+}
+
+enum turner_result turner_painter_measure(struct turner_painter *painter,
+                                          const struct turner_wish *wish)
+{
+    struct turner_sight *own = &painter->own;
+    struct drawing drawing = {painter, &wish->settings, NULL, TURNER_STAGE_FULL,
+                              painter->options.turn != NULL};
+    struct turner_render_options options = painter->render;
+    struct turner_settings settings = own->settings;
+    if (!wish->measure || own->compared || own->hooked || !painter->last)
+        return TURNER_OK;
+    options.progress = progress;
+    options.user = &drawing;
+    double seconds = own->seconds;
+    enum turner_result result = turner_painter_compare(painter, wish, &options, NULL);
+    if (result == TURNER_INTERRUPTED)
+        return TURNER_OK; /* later */
+    TURNER_TRY(result);
+    painter->started = turner_seconds() - seconds; /* it is the same picture */
+    publish(painter, painter->last, &settings, TURNER_STAGE_DONE, 1);
     return TURNER_OK;
 }

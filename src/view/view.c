@@ -97,6 +97,16 @@ static void finish_report(struct turner_session *session)
     snprintf(report->presenting, sizeof report->presenting, "%s", state.device);
     report->width = session->wish.settings.width;
     report->height = session->wish.settings.height;
+    for (int i = 0; i < 2 && session->against; i++) {
+        const struct turner_sight *sight = i ? &session->against->sight : &session->sight;
+        report->sides = true;
+        report->side[i] = (struct turner_report_side){sight->seconds, sight->statistics,
+                                                      sight->compared, sight->comparison};
+    }
+    if (session->against) {
+        report->differ_known = session->against->compared;
+        report->difference = session->against->difference;
+    }
     if (report->moved) {
         report->scale /= report->moved;
         report->depth /= report->moved;
@@ -123,30 +133,38 @@ static void send_wish(struct turner_session *session)
 {
     if (session->painted)
         turner_painter_paint(&session->painter, &session->scene);
+    if (session->painted && session->against && session->against->begun)
+        turner_painter_paint(&session->against->painter, &session->scene);
     if (!session->changed && !session->painted)
         return;
     session->painted = false;
     session->wish.moving = session->moving;
-    turner_painter_wish(&session->painter, &session->wish);
+    turner_against_wish(session);
     session->changed = session->moving = false;
 }
 
-static enum turner_result present(struct turner_session *session, bool fresh)
+/* `first`: what is new is of the first picture, where there are two. */
+static enum turner_result present(struct turner_session *session, bool fresh, bool first)
 {
     const struct turner_window_functions *functions = session->functions;
     if (!session->dirty && !fresh && !session->settle)
         return TURNER_OK;
-    if (fresh && functions->picture(session->window, session->sight.rgba, session->sight.width,
-                                    session->sight.height) != TURNER_WINDOW_OK)
-        return turner_fail(TURNER_DEVICE, "%s", functions->reason(session->window));
+    if ((fresh || !session->composed) && session->sight.rgba) {
+        const uint8_t *rgba;
+        int width, height;
+        turner_against_compose(session, &rgba, &width, &height);
+        session->composed = true;
+        if (functions->picture(session->window, rgba, width, height) != TURNER_WINDOW_OK)
+            return turner_fail(TURNER_DEVICE, "%s", functions->reason(session->window));
+    }
     if (fresh && session->sight.quick && !session->wish.moving)
         session->params_next = 0; /* shaders may have been saved */
-    bool boxes = fresh && (session->panel || session->wish.seen != TURNER_SEEN_PICTURE);
+    bool boxes = fresh && (session->panel || session->against || session->wish.seen != TURNER_SEEN_PICTURE);
     session->settle = session->dirty || boxes ? 2 : session->settle > 0 ? session->settle - 1 : 0;
     session->dirty = false;
     turner_session_boxes(session);
     switch (functions->show(session->window)) {
-    case TURNER_WINDOW_OK: count_frame(session, fresh); break;
+    case TURNER_WINDOW_OK: count_frame(session, first); break;
     case TURNER_WINDOW_HIDDEN: session->settle = 0; break;
     case TURNER_WINDOW_FAILED:
         return turner_fail(TURNER_DEVICE, "%s", functions->reason(session->window));
@@ -158,7 +176,8 @@ static enum turner_result present(struct turner_session *session, bool fresh)
 static double idle_seconds(const struct turner_session *session, bool animated)
 {
     double now = turner_seconds();
-    bool busy = session->sight.stage != TURNER_STAGE_DONE;
+    bool busy = session->sight.stage != TURNER_STAGE_DONE ||
+                (session->against && session->against->sight.stage != TURNER_STAGE_DONE);
     double seconds = busy ? BUSY_SECONDS
                      : now - session->presented < PRESENTED_SECONDS ? PRESENTED_WAIT
                                                                     : REST_WAIT;
@@ -195,7 +214,9 @@ static void take_pick(struct turner_session *session)
 {
     struct turner_vec3 point;
     bool met;
-    if (!turner_painter_picked(&session->painter, &point, &met))
+    bool second = session->against && session->against->begun;
+    if (!turner_painter_picked(&session->painter, &point, &met) &&
+        !(second && turner_painter_picked(&session->against->painter, &point, &met)))
         return;
     if (met && turner_camera_look_at(&session->wish.camera, point)) {
         turner_camera_round(&session->wish.camera);
@@ -208,6 +229,8 @@ static void take_pick(struct turner_session *session)
 static void take_explanation(struct turner_session *session)
 {
     char *text = turner_painter_explained(&session->painter);
+    if (!text && session->against && session->against->begun)
+        text = turner_painter_explained(&session->against->painter);
     if (!text)
         return;
     fputs(text, stdout);
@@ -250,8 +273,9 @@ static void take_scene(struct turner_session *session)
     session->scene = *scene;
     turner_scene_own_params(&session->scene);
     session->material = session->light = 0;
-    session->changed = session->moving = session->painted = false;
+    session->moving = session->painted = false;
     turner_painter_show(&session->painter, scene, wish);
+    session->changed = session->against != NULL; /* both, with one number */
 }
 
 static enum turner_result loop(struct turner_session *session)
@@ -272,7 +296,9 @@ static enum turner_result loop(struct turner_session *session)
         follow_size(session);
         send_wish(session);
         bool fresh = turner_painter_take(&session->painter, &session->sight);
+        bool first = fresh;
         TURNER_TRY(turner_painter_result(&session->painter));
+        TURNER_TRY(turner_against_take(session, &fresh));
         take_pick(session);
         take_explanation(session);
         take_scene(session);
@@ -281,7 +307,7 @@ static enum turner_result loop(struct turner_session *session)
         if (turner_painter_reply(&session->painter, reply))
             turner_session_say(session, "%s", reply);
         end_toast(session);
-        TURNER_TRY(present(session, fresh));
+        TURNER_TRY(present(session, fresh, first));
         seconds = idle_seconds(session, animated);
     }
     return TURNER_OK;
@@ -349,11 +375,16 @@ enum turner_result turner_view(const struct turner_view_options *options,
         .clock = turner_seconds(),
     };
     turner_scene_own_params(&session.scene);
+    struct turner_against against;
+    if (options->against) {
+        turner_against_create(&against, options->against);
+        session.against = &against;
+    }
     struct doorbell bell = {.mutex = PTHREAD_MUTEX_INITIALIZER};
     struct turner_painter_options painter = {
         .render = options->render, .path = options->path,
         .read = options->read, .reader = options->reader, .write = options->write,
-        .explain = options->explain,
+        .explain = options->explain, .turn = options->against ? &against.turn : NULL,
         .wake = ring, .user = &bell};
     *report = (struct turner_view_report){0};
     TURNER_TRY(turner_signals_start());
@@ -375,6 +406,8 @@ done:
     answer(&bell, NULL);
     turner_signals_stop();
     turner_painter_stop(&session.painter);
+    if (session.against)
+        turner_against_destroy(&against);
     if (session.window)
         session.functions->close(session.window);
     turner_sight_destroy(&session.sight);

@@ -4,7 +4,20 @@
 
 #include "view/painter.h"
 
+/* The second side of --against. */
+struct turner_against_options {
+    struct turner_scene *scene; /* as it has it; */
+    struct turner_render_options render;
+    turner_scene_reader read; /* and when its file changed */
+    void *reader;
+    void (*adapt)(void *user, struct turner_settings *settings); /* makes settings of the first its */
+    bool (*keeps)(void *user, const char *param); /* it has its own value of this parameter */
+    void *user;
+    const char *name; /* for people: "B: …" */
+};
+
 struct turner_view_options {
+    const struct turner_against_options *against; /* or NULL */
     struct turner_scene *scene;      /* as the options of the command line have it */
     const char *path;                /* its file */
     struct turner_opening *opening;  /* begun */
@@ -35,6 +48,15 @@ struct turner_view_report {
     double moved_seconds;  /* sum of the intervals */
     double *intervals;     /* `moved` of them; the caller frees them */
     double scale, depth;   /* of the picture in each direction, and of recursion: means of these */
+    bool sides;            /* there are two pictures: */
+    struct turner_report_side {
+        double seconds; /* of the one that was shown last */
+        struct turner_statistics statistics;
+        bool compared;  /* with the reference */
+        struct turner_comparison error;
+    } side[2];
+    bool differ_known;
+    struct turner_comparison difference; /* of the second from the first, where both are finished */
 };
 
 /* Until it is closed. TURNER_DEVICE where there is no display or device; TURNER_INTERRUPTED, with

@@ -64,7 +64,8 @@ enum turner_window_result {
 struct turner_ui {
     /* A frame of the panel: widgets stand between `begin` and turner_window_functions.show. */
     void (*begin)(struct turner_window *window);
-    /* A box at the left (place 0), right (1), bottom left (2), middle (3), top right (4) or bottom middle (5); false:
+    /* A box at the left (place 0), right (1), bottom left (2), middle (3), top right (4), bottom middle (5)
+     * or at the divider (6, 7); false:
      * folded. Each `open` has its `close`. `width` 0: as wide as what is in it. */
     bool (*open)(const char *title, int place, float width, bool plain);
     void (*close)(void);
@@ -85,6 +86,8 @@ struct turner_ui {
     void (*push)(int id); /* what follows may have the same names as what was */
     void (*pop)(void);
     void (*bar)(float share, const char *text);
+    /* A line from top to bottom; places 6 and 7 of `open` are at the top, left and right of it. */
+    void (*divider)(float x);
 };
 
 struct turner_window_functions {

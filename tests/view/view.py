@@ -14,8 +14,8 @@ import sys
 import tempfile
 import time
 
-from screen import DEVICE, INTERRUPTED, TURNER, Screen, Skip, View, check_machine, ppm_pixels, render
-from screen import wait_until
+from screen import DEVICE, INTERRUPTED, TURNER, USAGE, Screen, Skip, View, check_machine
+from screen import ppm_pixels, render, wait_until
 
 # A mirror, glass, a checkered floor: something in every pixel that a wrong camera would move.
 SCENE = """{"version": 1, "camera": {"from": [0, 1, 5], "at": [0, 0.5, 0], "vfov": 40},
@@ -307,6 +307,64 @@ vec3 user_background(vec3 direction)
     pathlib.Path("scene.json").write_text(text.replace('"level": 1', '"level": 3'))
     wait_until("not what the command line says", shows("--set", "level=2"))
     view.quit()
+
+
+@test
+def against(screen):
+    """Two sides and a divider, how they differ, and the figures of both."""
+    size, fps = (640, 480), ["--size", "640x480"]
+    def part(pixels, left, right):  # below the figures
+        return [pixels[3 * (640 * y + left):3 * (640 * y + right)] for y in range(200, 440)]
+    def wanted(*settings, scene="scene.json"):
+        return ppm_pixels(render(scene, "wanted.ppm", *fps, *settings))[2]
+    def shows(what, left, right, split):
+        view.xdo("mousemove", 639, 479)  # the pointer is drawn, too
+        wait_until(what, lambda: part(screen.shown(*size), 0, split - 8) ==
+                   part(left, 0, split - 8) and
+                   part(screen.shown(*size), split + 8, 640) == part(right, split + 8, 640))
+    deep, flat = wanted(), wanted("--depth", "1")
+    view = View(screen, "scene.json", "-q", *fps, "--against", "depth=1", "--stats",
+                "stats.json").find()
+    shows("both sides", deep, flat, 320)
+    view.drag(1, 320, 300, -160, 0)
+    shows("another split", deep, flat, 160)
+    view.key("x")
+    wait_until("all A", lambda: part(screen.shown(*size), 0, 630) == part(deep, 0, 630))
+    view.key("x")
+    wait_until("all B", lambda: part(screen.shown(*size), 10, 640) == part(flat, 10, 640))
+    view.key("x", "h")
+    subprocess.run([TURNER, "compare-shaders", "scene.json", "-", "-", "--method-b", "depth=1",
+                    "--heatmap", "heat.ppm", "--no-reference", "--runs", "1", "-q", *fps],
+                   check=True, capture_output=True, timeout=120)
+    heat = ppm_pixels(pathlib.Path("heat.ppm").read_bytes())[2]
+    wait_until("the heat map", lambda: part(screen.shown(*size), 0, 640) == part(heat, 0, 640))
+    view.key("h")
+    shows("the middle again", deep, flat, 320)
+    view.drag(1, 200, 400, 30, 10)
+    moved = json.loads(SCENE) | {"camera": view.camera()}
+    pathlib.Path("moved.json").write_text(json.dumps(moved))
+    shows("both moved", wanted(scene="moved.json"), wanted("--depth", "1", scene="moved.json"), 320)
+    wait_until("it does not rest", view.rests)  # both are measured
+    view.quit()
+    stats = json.loads(pathlib.Path("stats.json").read_text())
+    assert stats["a"]["error"]["rmse"] < 1e-3 < 0.05 < stats["b"]["error"]["rmse"], stats
+    assert stats["difference"]["rmse"] > 0.05, stats
+    assert stats["a"]["rays"]["refracted"] > stats["b"]["rays"]["refracted"] > 0, stats
+
+    hook = "vec3 user_background(vec3 direction)\n{\n    return vec3(%s);\n}\n"
+    shader = pathlib.Path("own/user/background.glsl")
+    shader.parent.mkdir(parents=True)
+    shader.write_text(hook % "0.2, 0.7, 0.3")
+    green = wanted("--shader-dir", "own")
+    view = View(screen, "scene.json", "-q", *fps, "--against", "own").find()
+    shows("its shaders", deep, green, 320)
+    shader.write_text(hook % "0.7, 0.2")
+    wait_until("the message", lambda: screen.shown(*size)[3 * 640 * 440:] != deep[3 * 640 * 440:])
+    shader.write_text(hook % "0.7, 0.2, 0.3")
+    shows("mended", deep, wanted("--shader-dir", "own"), 320)
+    view.quit()
+    for wrong in ("nothing", "deep=1", "depth=x"):
+        View(screen, "scene.json", "--against", wrong).end(USAGE)
 
 
 @test

@@ -13,6 +13,7 @@
 namespace
 {
 bool wraps = true;       // text in the box that is open
+float divided = 0;       // where the divider is
 float column = 0;        // where the texts of rows begin
 const float margin = 10; // between the window's edge and a box, of a screen that is not scaled
 
@@ -214,14 +215,38 @@ void turner_window_ui_enter(GLFWwindow *glfw, int entered)
 
 // ---- widgets ----
 
+// Where a box of that width keeps clear of the divider as long as the screen has room for it.
+static ImVec2 beside_divider(bool left, float across, float wide, float gap)
+{
+    float x = left ? divided - gap : divided + gap, least = gap + wide, most = across - gap - wide;
+    return ImVec2(left ? (x < least ? least : x) : (x > most ? most : x), gap);
+}
+
+static void divider(float x)
+{
+    ImVec2 size = ImGui::GetIO().DisplaySize, mouse = ImGui::GetIO().MousePos;
+    ImDrawList *list = ImGui::GetBackgroundDrawList();
+    float grip = ImGui::GetFontSize(), middle = 0.5f * size.y;
+    bool near = mouse.x >= x - 6 && mouse.x <= x + 6 && !ImGui::GetIO().WantCaptureMouse;
+    ImU32 light = near ? IM_COL32(255, 204, 110, 255) : IM_COL32(235, 235, 235, 220);
+    divided = x;
+    list->AddRectFilled(ImVec2(x - 2, 0), ImVec2(x + 2, size.y), IM_COL32(0, 0, 0, 110));
+    list->AddRectFilled(ImVec2(x - 1, 0), ImVec2(x + 1, size.y), light);
+    list->AddRectFilled(ImVec2(x - 4, middle - grip), ImVec2(x + 4, middle + grip), light, 4);
+    if (near)
+        ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+}
+
 static bool open_box(const char *title, int place, float width, bool plain)
 {
-    static const float across[] = {0, 1, 0, 0.5f, 1, 0.5f};
-    static const float down[] = {0, 0, 1, 0.5f, 0, 1};
+    static const float across[] = {0, 1, 0, 0.5f, 1, 0.5f, 1, 0};
+    static const float down[] = {0, 0, 1, 0.5f, 0, 1, 0, 0};
     ImVec2 size = ImGui::GetIO().DisplaySize;
     float gap = margin * ImGui::GetFontSize() / 14;
     ImVec2 at(gap + across[place] * (size.x - 2 * gap), gap + down[place] * (size.y - 2 * gap));
     float wide = width * ImGui::GetFontSize();
+    if (place >= 6)
+        at = beside_divider(place == 6, size.x, wide, gap);
     float most = size.x - 2 * gap > 60 ? size.x - 2 * gap : 60;
     bool moves = !plain && place < 2;
     ImGui::SetNextWindowPos(at, moves ? ImGuiCond_FirstUseEver : ImGuiCond_Always,
@@ -351,5 +376,5 @@ static void bar(float share, const char *string)
 const struct turner_ui turner_window_ui_functions = {
     begin,       open_box, close_box, text,    note,  alert, row,    section, slide,
     slide_whole, number,   numbers,   color,   check, choose, button, beside,  push,
-    pop,         bar,
+    pop,         bar,      divider,
 };
