@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "../shaders/shared.h"
 
 static const char *const names[] = {
@@ -28,6 +29,19 @@ bool turner_source_replaced(const struct turner_source_file *file)
             return strcmp(turner_embedded_shaders[i].text, file->text) != 0;
     }
     return true;
+}
+
+uint64_t turner_source_hash(const struct turner_shader_source *source)
+{
+    uint64_t hash = turner_hash_text(TURNER_HASH_START, source->text);
+    for (size_t i = 0; i < source->params.count; i++) {
+        const struct turner_param *param = &source->params.at[i];
+        const double range[2] = {param->least, param->most};
+        hash = turner_hash_bytes(hash, range, sizeof range);
+        hash = turner_hash_bytes(hash, param->standard.number, sizeof param->standard.number);
+        hash = turner_hash_text(hash, param->standard.name);
+    }
+    return hash;
 }
 
 uint32_t turner_hooks_of(const struct turner_shader_source *source)

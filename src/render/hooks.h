@@ -20,6 +20,9 @@ const char *turner_hook_name(enum turner_hook hook);
 /* Whether a file has another text than the one of its name in the program. */
 bool turner_source_replaced(const struct turner_source_file *file);
 
+/* One number for all a kernel is made from: its text, and the parameters' defaults and ranges. */
+uint64_t turner_source_hash(const struct turner_shader_source *source);
+
 /* Which of the files are hooks with another text than the program's own: the sum of 1u <<
  * TURNER_HOOK_…. */
 uint32_t turner_hooks_of(const struct turner_shader_source *source);

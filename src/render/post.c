@@ -12,7 +12,7 @@ enum turner_result turner_post_create_program(struct turner_post *post, struct t
 {
     struct turner_constant constants[TURNER_PARAM_WORDS];
     size_t count = 0;
-    *post = (struct turner_post){.wanted = true};
+    *post = (struct turner_post){.wanted = true, .source = kernel->source};
     TURNER_TRY(turner_params_constants(constants, &count, &kernel->params, scene));
     return turner_program_create(&post->program, gpu, &kernel->spirv, constants, count,
                                  VK_NULL_HANDLE);
@@ -29,10 +29,10 @@ enum turner_result turner_post_create_buffers(struct turner_post *post, struct t
 
 static enum turner_result create(struct turner_post *post, struct turner_gpu *gpu,
                                  const struct turner_scene *scene,
-                                 const struct turner_render_options *options)
+                                 struct turner_shader_source *source, bool no_cache)
 {
     struct turner_kernel kernel;
-    enum turner_result result = turner_kernel_create_from(&kernel, "post.comp", 0, options);
+    enum turner_result result = turner_kernel_compile(&kernel, 0, source, no_cache);
     if (result == TURNER_OK)
         result = turner_post_create_program(post, gpu, &kernel, scene);
     if (result == TURNER_OK)
@@ -45,10 +45,16 @@ enum turner_result turner_post_create(struct turner_post *post, struct turner_gp
                                       const struct turner_scene *scene,
                                       const struct turner_render_options *options)
 {
-    uint32_t hooks;
+    struct turner_shader_source source;
     *post = (struct turner_post){0};
-    TURNER_TRY(turner_hooks_find(&hooks, NULL, options));
-    return hooks & 1u << TURNER_HOOK_POST ? create(post, gpu, scene, options) : TURNER_OK;
+    enum turner_result result = turner_shader_source_create(
+        &source, "post.comp", options->shader_dirs, options->shader_dir_count);
+    if (result == TURNER_OK)
+        post->source = turner_source_hash(&source);
+    if (result == TURNER_OK && turner_hooks_of(&source) & 1u << TURNER_HOOK_POST)
+        result = create(post, gpu, scene, &source, options->no_cache);
+    turner_shader_source_destroy(&source);
+    return result;
 }
 
 void turner_post_destroy(struct turner_gpu *gpu, struct turner_post *post)

@@ -10,6 +10,7 @@ struct turner_kernel; /* of post.comp (render/renderer.h) */
 
 struct turner_post {
     bool wanted;
+    uint64_t source; /* of post.comp, wanted or not (turner_source_hash) */
     struct turner_program program;
     struct turner_param_block params;
     struct turner_buffer pixels;

@@ -193,28 +193,13 @@ static void start(struct turner_reload *reload, struct turner_shader_source *sou
     reload->state = TURNER_RELOAD_BROKEN;
 }
 
-/* What is not in the text of live ones. */
-static uint64_t hash_params(uint64_t hash, const struct turner_params *params)
-{
-    for (size_t i = 0; i < params->count; i++) {
-        const struct turner_param *param = &params->at[i];
-        const double range[2] = {param->least, param->most};
-        hash = turner_hash_bytes(hash, range, sizeof range);
-        hash = turner_hash_bytes(hash, param->standard.number, sizeof param->standard.number);
-        hash = turner_hash_text(hash, param->standard.name);
-    }
-    return hash;
-}
-
 /* Everything that decides the kernel, and the values it begins with, but the renderer itself. */
 static uint64_t hash_of(const struct turner_reload *reload,
                         const struct turner_shader_source *source,
                         const struct turner_shader_source *post_source)
 {
-    uint64_t hash = turner_hash_text(TURNER_HASH_START, source->text);
-    hash = turner_hash_text(hash, post_source->text);
-    hash = hash_params(hash, &source->params);
-    hash = hash_params(hash, &post_source->params);
+    const uint64_t sources[2] = {turner_source_hash(source), turner_source_hash(post_source)};
+    uint64_t hash = turner_hash_bytes(TURNER_HASH_START, sources, sizeof sources);
     struct turner_constant constants[2 * TURNER_PARAM_WORDS];
     size_t count = 0;
     enum turner_result result =
@@ -362,7 +347,10 @@ static enum turner_result take(struct turner_reload *reload, struct build *build
         TURNER_TRY(take_part(renderer->accurate, &build->parts[1], &build->kernel, scene));
     TURNER_TRY(take_part(renderer, &build->parts[0], &build->kernel, scene));
     turner_post_destroy(renderer->gpu, &renderer->post);
+    if (!build->post.wanted) /* else it knows */
+        build->post.source = turner_source_hash(&build->post_source);
     renderer->post = build->post;
+    renderer->source = build->kernel.source;
     build->post = (struct turner_post){0};
     return TURNER_OK;
 }
@@ -416,8 +404,11 @@ enum turner_result turner_reload_create(struct turner_reload **out,
     copy_scene(reload, scene);
     /* what has changed since then is dirty, and seen at the first poll */
     enum turner_result result = read_sources(reload, &source, &post_source, since);
-    if (result == TURNER_OK)
+    if (result == TURNER_OK && turner_source_hash(&source) == renderer->source &&
+        turner_source_hash(&post_source) == renderer->post.source)
         reload->wanted = reload->current = hash_of(reload, &source, &post_source);
+    else if (result == TURNER_OK)
+        look(reload); /* it is so already */
     turner_shader_source_destroy(&source);
     turner_shader_source_destroy(&post_source);
     if (result != TURNER_OK) {

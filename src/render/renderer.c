@@ -113,6 +113,7 @@ enum turner_result turner_kernel_compile(struct turner_kernel *kernel, unsigned 
     }
     memset(kernel, 0, sizeof *kernel);
     kernel->kind = kind;
+    kernel->source = turner_source_hash(source);
     kernel->hooks = turner_hooks_of(source);
     kernel->params = source->params;
     source->params = (struct turner_params){0};
@@ -283,6 +284,7 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
            kind_of(&scene->settings.methods));
     renderer->gpu = gpu;
     renderer->kind = kernel->kind;
+    renderer->source = kernel->source;
     renderer->ray_query = kernel->kind & TURNER_RAY_QUERY;
     struct turner_scene deep = deep_enough(scene);
     renderer->needs = turner_needs_of(&deep);

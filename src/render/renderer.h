@@ -24,6 +24,7 @@ enum turner_kernel_kind {
 struct turner_kernel {
     unsigned kind; /* TURNER_RAY_QUERY | … */
     bool cached;   /* the cache had it (gpu/cache.h) */
+    uint64_t source; /* of what it is made from (turner_source_hash) */
     uint32_t hooks; /* of its files, those that are replaced (render/hooks.h) */
     struct turner_params params; /* that its files declare */
     struct turner_spirv spirv;
@@ -65,7 +66,8 @@ enum turner_result turner_kernel_size(size_t *bytes, const struct turner_kernel 
 
 struct turner_renderer {
     struct turner_gpu *gpu; /* not owned */
-    unsigned kind;          /* of its kernel */
+    unsigned kind;          /* of its kernel, */
+    uint64_t source;        /* and what that is made from */
     bool ray_query;
     struct turner_needs needs;
     struct turner_needs needs_of_scene, needs_of_surface; /* without what hooks ask for besides, and

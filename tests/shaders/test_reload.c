@@ -115,6 +115,24 @@ static void sets_parameters(void **state)
     assert_int_equal(bench_settle(&bench), TURNER_RELOAD_READY);
 }
 
+/* Files that changed after the kernel was made and before they were watched. */
+static void begins_late(void **state)
+{
+    (void)state;
+    const char *const dirs[] = {bench.folder};
+    const struct turner_render_options options = {.shader_dirs = dirs, .shader_dir_count = 1};
+    char text[512];
+    background(text, 6);
+    for (int there = 1; there >= 0; there--) {
+        turner_reload_destroy(bench.reload);
+        bench_write(&bench, "background.glsl", there ? text : NULL, false);
+        assert_ok(turner_reload_create(&bench.reload, &bench.renderer, bench.scene, &options,
+                                       turner_watch_now()));
+        assert_int_equal(bench_settle(&bench), TURNER_RELOAD_READY);
+        expect_color(there ? 6 : 0);
+    }
+}
+
 /* ---- random edits ---- */
 
 static uint32_t dice = 1;
@@ -189,6 +207,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(follows_edits),
         cmocka_unit_test(sets_parameters),
+        cmocka_unit_test(begins_late),
         cmocka_unit_test(survives_random_edits),
     };
     bench_open(&bench, SCENE, false, true);
