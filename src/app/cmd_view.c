@@ -272,6 +272,10 @@ static char *report_json(struct turner_view_report *report)
         cJSON_AddNumberToObject(moving, "scale", report->scale);
         cJSON_AddNumberToObject(moving, "depth", report->depth);
     }
+    cJSON *changes = cJSON_AddObjectToObject(object, "changes");
+    cJSON_AddNumberToObject(changes, "built", report->changes.built);
+    cJSON_AddNumberToObject(changes, "painted", report->changes.painted);
+    cJSON_AddNumberToObject(changes, "moved", report->changes.moved);
     if (report->sides)
         add_sides(object, report);
     char *text = cJSON_Print(object);

@@ -133,13 +133,9 @@ static enum turner_result flatten_groups(struct turner_flat *flat, const struct 
     return TURNER_OK;
 }
 
-/* The top level: leaves of one instance, named by its index, because instances stay in the order of
- * the scene, which decides ties. */
-static void build_top(struct turner_flat *flat, struct turner_bvh_item *items, uint32_t count,
-                      const uint32_t *group_levels, const uint32_t *group_nodes, size_t group_count)
+uint32_t turner_flat_top(struct turner_flat *flat, struct turner_bvh_item *items, uint32_t count)
 {
     size_t first = flat->node_count;
-    flat->root = (uint32_t)first;
     struct turner_bvh_item *spare = turner_calloc(count, sizeof *spare);
     uint32_t levels = turner_bvh_build(flat->nodes, &flat->node_count, items, spare, count, 1, 0);
     free(spare);
@@ -149,9 +145,18 @@ static void build_top(struct turner_flat *flat, struct turner_bvh_item *items, u
                 flat->nodes[i].child[side] = items[flat->nodes[i].child[side]].index;
         }
     }
-    uint32_t deepest = 0;
+    return levels;
+}
+
+static void build_top(struct turner_flat *flat, struct turner_bvh_item *items, uint32_t count,
+                      const uint32_t *group_levels, const uint32_t *group_nodes, size_t group_count)
+{
+    size_t first = flat->node_count;
+    flat->root = (uint32_t)first;
+    uint32_t levels = turner_flat_top(flat, items, count), deepest = 0;
     for (size_t g = 0; g < group_count; g++)
         deepest = group_levels[g] > deepest ? group_levels[g] : deepest;
+    flat->group_depth = deepest;
     flat->max_depth = levels + 1 + deepest;
     flat->max_visits = flat->node_count - first;
     for (size_t i = 0; i < flat->instance_count; i++)
@@ -175,6 +180,7 @@ static void widen(struct turner_flat *flat, size_t group_count, uint32_t *group_
     uint32_t entries = turner_bvh_widen(flat->wide, &count, flat->nodes, flat->root);
     turner_bvh_wide_boxes(flat->wide, count, flat->nodes);
     flat->root = (uint32_t)first;
+    flat->group_depth = 0; /* one level or the other is walked */
     flat->max_depth = 1 + (entries > waiting ? entries : waiting);
     flat->max_visits = count - first;
     for (size_t i = 0; i < flat->instance_count; i++) {
@@ -226,6 +232,10 @@ enum turner_result turner_flat_create(struct turner_flat *flat, const struct tur
         flat->nodes = turner_realloc(flat->nodes, flat->node_count, sizeof *flat->nodes);
     if (order == TURNER_ORDER_WIDE)
         widen(flat, scene->group_count, group_nodes);
+    flat->order = order;
+    flat->node_room = flat->node_count;
+    if (scene->instance_count && order != TURNER_ORDER_MEDIAN)
+        flat->node_room += (flat->node_count - flat->root) / 8 + 8;
 done:
     free(patterned);
     free(items);

@@ -38,10 +38,13 @@ struct turner_flat {
     uint32_t *instance_groups;        /* instance_count: group of each instance */
     size_t node_count; /* of nodes or wide */
     size_t primitive_count, instance_count, corner_count, vertex_count;
-    uint32_t root;       /* top level's root node */
+    enum turner_order order;
+    uint32_t root;       /* top level's root node; the nodes from here to the end are those of the top */
+    size_t node_room;    /* that a device is to have, so that turner_flat_move has some to spare */
     uint32_t max_depth;  /* SAH: entries a traversal stack needs that pushes one child a node: the
                             levels of the top tree, 1 sentinel, the levels of the deepest group;
                             WIDE: entries of either level that wait at once, with that of the end */
+    uint32_t group_depth; /* SAH: of these, those of the groups */
     uint64_t max_visits; /* SAH, WIDE: nodes and instances one ray can visit, at most */
 };
 
@@ -51,6 +54,14 @@ struct turner_flat {
 enum turner_result turner_flat_create(struct turner_flat *flat, const struct turner_scene *scene,
                                       enum turner_order order);
 void turner_flat_destroy(struct turner_flat *flat);
+
+/* The instances and the top level again, after turner_flat_release, of a scene that differs in where
+ * instances stand: fills `instances` and, from `root` on, `nodes` or `wide`, and sets node_count; the
+ * groups stay as they are, and so does max_depth. Release it once more. `fits` gets false when it is
+ * another scene, or would take more room than node_room or deeper stacks: build it anew then.
+ * TURNER_BAD_INPUT as above. */
+enum turner_result turner_flat_move(struct turner_flat *flat, const struct turner_scene *scene,
+                                    bool *fits);
 
 /* Frees the arrays that a device has copies of; counts, groups and instance_groups stay. */
 void turner_flat_release(struct turner_flat *flat);

@@ -46,6 +46,11 @@ void turner_flat_place(struct turner_gpu_primitive *primitives,
                        const struct turner_flat_source *source, const struct turner_bvh_item *items,
                        uint32_t count);
 
+/* Appends the top level to flat->nodes, over instances whose bounds are `items`: leaves of one
+ * instance, named by its index, because instances stay in the order of the scene, which decides ties.
+ * Returns its levels. */
+uint32_t turner_flat_top(struct turner_flat *flat, struct turner_bvh_item *items, uint32_t count);
+
 /* Fills flat->instances and instance_groups, and items with the bounds in the world of those that
  * are not empty, in their order; *used says how many. A group's bounds are rounded outwards by what
  * transforming in floats may err. TURNER_BAD_INPUT when something does not fit a float. */

@@ -89,7 +89,14 @@ enum turner_result turner_device_scene_build(struct turner_device_scene *device,
         if (group->box_count)
             TURNER_TRY(build_boxes(&device->accels[2 * i + 1], gpu, flat, group));
     }
+    return turner_device_scene_build_top(device, gpu, flat);
+}
 
+enum turner_result turner_device_scene_build_top(struct turner_device_scene *device,
+                                                 struct turner_gpu *gpu,
+                                                 const struct turner_flat *flat)
+{
+    turner_accel_destroy(gpu, &device->top);
     VkAccelerationStructureInstanceKHR *entries =
         turner_calloc(2 * flat->instance_count, sizeof *entries);
     uint32_t count = 0;

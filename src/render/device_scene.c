@@ -170,25 +170,51 @@ static enum turner_result upload_images(struct turner_device_scene *device, stru
     return result;
 }
 
-static enum turner_result upload_rests(struct turner_device_scene *device, struct turner_gpu *gpu,
-                                       const struct turner_scene *scene,
-                                       const struct turner_flat *flat)
+static enum turner_result upload_primitive_rests(struct turner_device_scene *device,
+                                                 struct turner_gpu *gpu,
+                                                 const struct turner_scene *scene,
+                                                 const struct turner_flat *flat)
 {
     struct turner_gpu_primitive_rest *primitives =
         turner_calloc(flat->primitive_count + 1, sizeof *primitives);
+    turner_flat_primitive_rests(primitives, flat, scene);
+    enum turner_result result = upload(device, gpu, TURNER_ARRAY_PRIMITIVE_RESTS, primitives,
+                                       flat->primitive_count * sizeof *primitives);
+    free(primitives);
+    return result;
+}
+
+static enum turner_result upload_instance_rests(struct turner_device_scene *device,
+                                                struct turner_gpu *gpu,
+                                                const struct turner_scene *scene,
+                                                const struct turner_flat *flat)
+{
     struct turner_gpu_instance_rest *instances =
         turner_calloc(flat->instance_count, sizeof *instances);
-    enum turner_result result;
-    turner_flat_primitive_rests(primitives, flat, scene);
     turner_flat_instance_rests(instances, flat, scene);
-    TURNER_TRY_DONE(upload(device, gpu, TURNER_ARRAY_PRIMITIVE_RESTS, primitives,
-                           flat->primitive_count * sizeof *primitives));
-    TURNER_TRY_DONE(upload(device, gpu, TURNER_ARRAY_INSTANCE_RESTS, instances,
-                           flat->instance_count * sizeof *instances));
-done:
-    free(primitives);
+    enum turner_result result = upload(device, gpu, TURNER_ARRAY_INSTANCE_RESTS, instances,
+                                       flat->instance_count * sizeof *instances);
     free(instances);
     return result;
+}
+
+static size_t node_size(const struct turner_flat *flat)
+{
+    return flat->order == TURNER_ORDER_WIDE ? sizeof *flat->wide : sizeof *flat->nodes;
+}
+
+/* From node `first` on. */
+static enum turner_result upload_nodes(struct turner_device_scene *device, struct turner_gpu *gpu,
+                                       const struct turner_flat *flat, size_t first)
+{
+    struct turner_buffer *buffer = &device->arrays[TURNER_ARRAY_NODES];
+    size_t size = node_size(flat), bytes = (flat->node_count - first) * size;
+    const char *nodes = flat->wide ? (const char *)flat->wide : (const char *)flat->nodes;
+    if (!buffer->buffer)
+        TURNER_TRY(turner_buffer_create(buffer, gpu, flat->node_room * size, 0,
+                                        TURNER_MEMORY_DEVICE, array_names[TURNER_ARRAY_NODES]));
+    return bytes ? turner_buffer_upload(gpu, buffer, first * size, nodes + first * size, bytes)
+                 : TURNER_OK;
 }
 
 /* The list of media the eye is inside of, as shaders/media.glsl keeps it: highest first. */
@@ -313,10 +339,7 @@ enum turner_result turner_device_scene_create(struct turner_device_scene *device
                                               const struct turner_needs *needs, bool ray_query)
 {
     memset(device, 0, sizeof *device);
-    TURNER_TRY(upload(device, gpu, TURNER_ARRAY_NODES,
-                      flat->wide ? (const void *)flat->wide : flat->nodes,
-                      flat->node_count *
-                          (flat->wide ? sizeof *flat->wide : sizeof *flat->nodes)));
+    TURNER_TRY(upload_nodes(device, gpu, flat, 0));
     TURNER_TRY(upload(device, gpu, TURNER_ARRAY_PRIMITIVES, flat->primitives,
                       flat->primitive_count * sizeof *flat->primitives));
     TURNER_TRY(upload(device, gpu, TURNER_ARRAY_INSTANCES, flat->instances,
@@ -332,8 +355,10 @@ enum turner_result turner_device_scene_create(struct turner_device_scene *device
     TURNER_TRY(upload_media(device, gpu, scene));
     TURNER_TRY(upload_lights(device, gpu, scene));
     TURNER_TRY(upload_images(device, gpu, scene));
-    if (scene->settings.methods.precision == TURNER_PRECISION_F64)
-        TURNER_TRY(upload_rests(device, gpu, scene, flat));
+    if (scene->settings.methods.precision == TURNER_PRECISION_F64) {
+        TURNER_TRY(upload_primitive_rests(device, gpu, scene, flat));
+        TURNER_TRY(upload_instance_rests(device, gpu, scene, flat));
+    }
     if (ray_query)
         TURNER_TRY(turner_device_scene_build(device, gpu, flat));
     struct turner_gpu_scene block = scene_block(device, scene, flat, needs, ray_query);
@@ -346,6 +371,19 @@ enum turner_result turner_device_scene_paint(struct turner_device_scene *device,
 {
     TURNER_TRY(upload_materials(device, gpu, scene));
     return upload_lights(device, gpu, scene);
+}
+
+enum turner_result turner_device_scene_move(struct turner_device_scene *device,
+                                            struct turner_gpu *gpu,
+                                            const struct turner_scene *scene,
+                                            const struct turner_flat *flat, bool ray_query)
+{
+    TURNER_TRY(upload(device, gpu, TURNER_ARRAY_INSTANCES, flat->instances,
+                      flat->instance_count * sizeof *flat->instances));
+    if (device->arrays[TURNER_ARRAY_INSTANCE_RESTS].buffer)
+        TURNER_TRY(upload_instance_rests(device, gpu, scene, flat));
+    return ray_query ? turner_device_scene_build_top(device, gpu, flat)
+                     : upload_nodes(device, gpu, flat, flat->root);
 }
 
 void turner_device_scene_destroy(struct turner_gpu *gpu, struct turner_device_scene *device)

@@ -50,11 +50,20 @@ enum turner_result turner_device_scene_look(struct turner_device_scene *device,
 enum turner_result turner_device_scene_paint(struct turner_device_scene *device,
                                              struct turner_gpu *gpu,
                                              const struct turner_scene *scene);
+/* Uploads the instances and the top level, after turner_flat_move, or builds the device's own anew. */
+enum turner_result turner_device_scene_move(struct turner_device_scene *device,
+                                            struct turner_gpu *gpu,
+                                            const struct turner_scene *scene,
+                                            const struct turner_flat *flat, bool ray_query);
 void turner_device_scene_destroy(struct turner_gpu *gpu, struct turner_device_scene *device);
 
 /* The acceleration structures alone (acceleration.c). */
 enum turner_result turner_device_scene_build(struct turner_device_scene *device,
                                              struct turner_gpu *gpu,
                                              const struct turner_flat *flat);
+/* The one over the instances, in place of the one there was. */
+enum turner_result turner_device_scene_build_top(struct turner_device_scene *device,
+                                                 struct turner_gpu *gpu,
+                                                 const struct turner_flat *flat);
 
 #endif

@@ -359,6 +359,25 @@ enum turner_result turner_renderer_paint(struct turner_renderer *renderer,
                               : TURNER_OK;
 }
 
+enum turner_result turner_renderer_move(struct turner_renderer *renderer,
+                                        const struct turner_scene *scene, bool *fits)
+{
+    enum turner_result result = TURNER_OK;
+    *fits = !(turner_needs_of(scene).bits & ~renderer->needs.bits);
+    if (*fits)
+        result = turner_flat_move(&renderer->flat, scene, fits);
+    if (result == TURNER_OK && *fits)
+        result = turner_device_scene_move(&renderer->scene, renderer->gpu, scene, &renderer->flat,
+                                          renderer->ray_query);
+    turner_flat_release(&renderer->flat);
+    if (result == TURNER_OK && *fits && renderer->ray_query)
+        result = turner_program_bind_acceleration(&renderer->program, renderer->gpu,
+                                                  TURNER_BINDING_TLAS, renderer->scene.top.handle);
+    if (result == TURNER_OK && *fits && renderer->accurate)
+        result = turner_renderer_move(renderer->accurate, scene, fits);
+    return result;
+}
+
 void turner_renderer_destroy(struct turner_renderer *renderer)
 {
     struct turner_gpu *gpu = renderer->gpu;

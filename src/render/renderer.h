@@ -138,6 +138,13 @@ enum turner_result turner_renderer_paint(struct turner_renderer *renderer,
                                          const struct turner_scene *before,
                                          const struct turner_scene *scene, bool *fits);
 
+/* Takes instances that stand elsewhere: only the level over them is built anew. `fits` gets false
+ * when the scene differs in more from the one it was created with, materials and lights apart, or
+ * there is no room; the renderer is then to be made anew, as after a failure. Not while something is
+ * traced. */
+enum turner_result turner_renderer_move(struct turner_renderer *renderer,
+                                        const struct turner_scene *scene, bool *fits);
+
 /* Runs the kernel of render.comp on no pixel: a driver that compiles at the first dispatch does so
  * then. */
 enum turner_result turner_renderer_warm(struct turner_renderer *renderer);

@@ -84,8 +84,8 @@ void turner_painter_watch(struct turner_painter *painter)
         painter->reload = NULL; /* what is shown stays as it is */
 }
 
-/* A number for all that a renderer has to be made anew for: what is left when materials, lights and
- * what stands in the scene once are taken away. */
+/* A number for all that a renderer has to be made anew for: what is left when materials, lights,
+ * places of instances and what stands in the scene once are taken away. */
 static uint64_t shape_of(const struct turner_scene *scene)
 {
     struct turner_scene plain = *scene;
@@ -97,10 +97,40 @@ static uint64_t shape_of(const struct turner_scene *scene)
     plain.materials = turner_calloc(scene->material_count + 1, sizeof *plain.materials);
     for (size_t i = 0; i < scene->material_count; i++)
         plain.materials[i].pattern = scene->materials[i].pattern;
+    plain.instances = turner_calloc(scene->instance_count + 1, sizeof *plain.instances);
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        plain.instances[i].group = scene->instances[i].group;
+        plain.instances[i].material = scene->instances[i].material;
+    }
     uint64_t hash = turner_scene_hash(&plain);
+    free(plain.instances);
     free(plain.lights);
     free(plain.materials);
     return hash;
+}
+
+static bool same_places(const struct turner_scene *a, const struct turner_scene *b)
+{
+    bool same = true; /* there are as many */
+    for (size_t i = 0; i < a->instance_count && same; i++)
+        same = memcmp(&a->instances[i].transform, &b->instances[i].transform,
+                      sizeof a->instances[i].transform) == 0;
+    return same;
+}
+
+/* The renderer takes what is new in the scene, unless that is too much for it. */
+static bool adapt(struct turner_painter *painter, const struct turner_scene *before)
+{
+    const struct turner_scene *scene = &painter->scene;
+    bool fits = false;
+    if (shape_of(before) != shape_of(scene) ||
+        turner_renderer_paint(&painter->renderer, before, scene, &fits) != TURNER_OK || !fits)
+        return false;
+    painter->own.changes.painted++;
+    if (same_places(before, scene))
+        return true;
+    painter->own.changes.moved++;
+    return turner_renderer_move(&painter->renderer, scene, &fits) == TURNER_OK && fits;
 }
 
 void turner_painter_take_scene(struct turner_painter *painter)
@@ -112,12 +142,9 @@ void turner_painter_take_scene(struct turner_painter *painter)
     if (!next)
         return;
     struct turner_scene before = painter->scene;
-    bool fits = false;
     painter->scene = *next;
     turner_scene_own_params(&painter->scene);
-    if (painter->ready && shape_of(&before) == shape_of(next) &&
-        turner_renderer_paint(&painter->renderer, &before, &painter->scene, &fits) != TURNER_OK)
-        fits = false;
+    bool fits = painter->ready && adapt(painter, &before);
     if (fits && painter->reload) /* other parameters, names of materials, folder of shaders */
         fits = turner_reload_set_params(painter->reload, &painter->scene) == TURNER_OK;
     else if (fits)

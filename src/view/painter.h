@@ -70,6 +70,11 @@ struct turner_sight {
     float *linear;    /* of the full picture, RGB and one unused, where there are two painters; */
     size_t linear_room; /* or nothing, 0 */
     unsigned number;  /* of the wish */
+    struct turner_changes {
+        unsigned built;   /* renderers that were made, */
+        unsigned painted; /* times that one got other materials and lights, */
+        unsigned moved;   /* and other places for its instances */
+    } changes;
     unsigned count; /* of pictures before it that were not parts of one */
 };
 

@@ -66,6 +66,7 @@ static enum turner_result create(struct turner_painter *painter)
     turner_painter_unwatch(painter);
     painter->since = turner_watch_now();
     turner_painter_find_shaders(painter);
+    painter->own.changes.built++;
     if (!painter->count) {
         TURNER_TRY(turner_opening_compile(&painter->kernel, painter->opening, methods, options,
                                           made));

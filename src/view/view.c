@@ -97,6 +97,7 @@ static void finish_report(struct turner_session *session)
     snprintf(report->presenting, sizeof report->presenting, "%s", state.device);
     report->width = session->wish.settings.width;
     report->height = session->wish.settings.height;
+    report->changes = session->sight.changes;
     for (int i = 0; i < 2 && session->against; i++) {
         const struct turner_sight *sight = i ? &session->against->sight : &session->sight;
         report->sides = true;

@@ -48,6 +48,7 @@ struct turner_view_report {
     double moved_seconds;  /* sum of the intervals */
     double *intervals;     /* `moved` of them; the caller frees them */
     double scale, depth;   /* of the picture in each direction, and of recursion: means of these */
+    struct turner_changes changes; /* what was made anew for them */
     bool sides;            /* there are two pictures: */
     struct turner_report_side {
         double seconds; /* of the one that was shown last */

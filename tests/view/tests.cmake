@@ -23,3 +23,12 @@ if(TARGET turner_view)
     turner_view_test(pace ${PROJECT_SOURCE_DIR}/src/view/pace.c)
     turner_view_test(orbit ${PROJECT_SOURCE_DIR}/src/view/camera.c)
 endif()
+
+# What a saved scene leaves to be built anew.
+if(TARGET turner)
+    turner_unit_test(view_move ${CMAKE_CURRENT_LIST_DIR}/test_view_move.c
+        LAYERS base image scene reference bvh gpu render LIBRARIES ${turner_libraries})
+    set_target_properties(test_view_move PROPERTIES LINKER_LANGUAGE CXX)
+    set_tests_properties(view_move PROPERTIES LABELS device
+        ENVIRONMENT "MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/view")
+endif()

@@ -447,6 +447,43 @@ def files(screen):
 
 
 @test
+def rebuilt(screen):
+    """A saved scene has only that made anew which changed."""
+    def save(change):
+        change(scene)
+        aside = pathlib.Path("scene.new")
+        aside.write_text(json.dumps(scene))
+        aside.rename("scene.json")
+    scene = json.loads(SCENE)
+    scene["groups"] = {"ball": [{"type": "sphere", "center": [0, 0, 0], "radius": 0.2,
+                                 "material": "mirror"}]}
+    scene["instances"] = [{"group": "ball", "transform": [{"translate": [x, -0.3, 1.5]}]}
+                          for x in (-0.5, 0, 0.5)]
+    save(lambda s: None)
+    def move(s):
+        s["instances"][1]["transform"][0]["translate"] = [0.1, 0.3, 1.6]
+    edits = [lambda s: None,
+             lambda s: s["camera"].update({"from": [0.5, 1.2, 5]}),
+             lambda s: s["materials"]["floor"].update(k_d=0.3),
+             lambda s: s["lights"][0].update(intensity=70),
+             lambda s: s["background"].update(bottom=0.3), move]
+    view = View(screen, "scene.json", "-q", "--stats", "stats.json").find()
+    for change in edits:
+        save(change)
+        view.wait_for_picture(*ppm_pixels(render("scene.json", "wanted.ppm")))
+    view.quit()
+    changes = json.loads(pathlib.Path("stats.json").read_text())["changes"]
+    assert changes["built"] == 1 and changes["moved"] == 1 and changes["painted"] >= 5, changes
+    view = View(screen, "scene.json", "-q", "--stats", "stats.json").find()
+    view.wait_for_picture(*ppm_pixels(render("scene.json", "wanted.ppm")))
+    save(lambda s: s["primitives"][1].update(radius=0.8))  # that takes a new one
+    view.wait_for_picture(*ppm_pixels(render("scene.json", "wanted.ppm")))
+    view.quit()
+    changes = json.loads(pathlib.Path("stats.json").read_text())["changes"]
+    assert changes["built"] == 2 and changes["moved"] == 0, changes
+
+
+@test
 def cameras(screen):
     """Cameras of the scene, one written into its file, a path recorded and drawn."""
     text = SCENE.replace('"background"', """"cameras": [{"at": [0,0.5,0],   "from": [5,1,0.50]},
