@@ -37,7 +37,7 @@ static void show_toast(const struct turner_session *session, const struct turner
 {
     if (turner_seconds() >= session->toast_end)
         return;
-    ui->open("##toast", 2, 0, true);
+    ui->open("##toast", session->panel ? 8 : 2, 0, true);
     ui->text(session->toast);
     ui->close();
 }
@@ -48,7 +48,7 @@ static void show_alert(const struct turner_session *session, const struct turner
     turner_against_alert(session, text);
     if (!text[0])
         return;
-    ui->open("##alert", 5, 44, true);
+    ui->open("##alert", session->panel ? 8 : 5, 44, true);
     ui->alert(text);
     ui->close();
 }
@@ -83,11 +83,11 @@ void turner_session_boxes(struct turner_session *session)
     if (session->keys)
         show_keys(ui);
     if (session->explanation) {
-        if (ui->open("Rays of a pixel", 1, 48, false))
-            ui->text(session->explanation);
+        if (ui->open("Rays of a pixel", 1, 47, false))
+            ui->code(session->explanation);
         ui->close();
     }
     show_legend(session, ui);
-    show_alert(session, ui);
     show_toast(session, ui);
+    show_alert(session, ui);
 }

@@ -334,8 +334,12 @@ static bool has_work(struct turner_painter *painter, const struct progress *at)
     pthread_mutex_lock(&painter->mutex);
     bool asked = painter->pick;
     pthread_mutex_unlock(&painter->mutex);
-    return asked || at->stage != TURNER_STAGE_DONE ||
-           (at->wish.measure && !painter->own.compared && !painter->own.hooked && !painter->blind);
+    return asked || at->stage != TURNER_STAGE_DONE;
+}
+
+static bool may_measure(const struct turner_painter *painter, const struct turner_wish *wish)
+{
+    return wish->measure && !painter->own.compared && !painter->own.hooked && !painter->blind;
 }
 
 static enum turner_result work(struct turner_painter *painter)
@@ -353,10 +357,10 @@ static enum turner_result work(struct turner_painter *painter)
         if (!wait_for(painter, &at.wish, &fresh, rest, seconds))
             return TURNER_OK;
         TURNER_TRY(turner_painter_poll(painter, &redraw));
-        bool again = fresh || redraw;
-        if (again || has_work(painter, &at)) {
+        bool again = fresh || redraw, work = again || has_work(painter, &at);
+        if (work || may_measure(painter, &at.wish)) {
             if (turn)
-                turner_turn_take(turn);
+                turner_turn_take(turn, work);
             enum turner_result result = go_on(painter, &at, again);
             if (turn)
                 turner_turn_give(turn);

@@ -13,12 +13,14 @@ void turner_turn_destroy(struct turner_turn *turn)
     pthread_mutex_destroy(&turn->mutex);
 }
 
-void turner_turn_take(struct turner_turn *turn)
+void turner_turn_take(struct turner_turn *turn, bool urgent)
 {
     pthread_mutex_lock(&turn->mutex);
     unsigned number = turn->next++;
+    turn->urgent += urgent;
     while (turn->serving != number)
         pthread_cond_wait(&turn->changed, &turn->mutex);
+    turn->urgent -= urgent;
     pthread_mutex_unlock(&turn->mutex);
 }
 
@@ -33,7 +35,7 @@ void turner_turn_give(struct turner_turn *turn)
 bool turner_turn_wanted(struct turner_turn *turn)
 {
     pthread_mutex_lock(&turn->mutex);
-    bool wanted = turn->next - turn->serving > 1;
+    bool wanted = turn->urgent > 0;
     pthread_mutex_unlock(&turn->mutex);
     return wanted;
 }

@@ -64,12 +64,13 @@ enum turner_window_result {
 struct turner_ui {
     /* A frame of the panel: widgets stand between `begin` and turner_window_functions.show. */
     void (*begin)(struct turner_window *window);
-    /* A box at the left (place 0), right (1), bottom left (2), middle (3), top right (4), bottom middle (5)
-     * or at the divider (6, 7); false:
+    /* A box at the left (place 0), right (1), bottom left (2), middle (3), top right (4), bottom middle (5),
+     * at the divider (6, 7) or bottom right (8); those at the bottom stand on each other. False:
      * folded. Each `open` has its `close`. `width` 0: as wide as what is in it. */
     bool (*open)(const char *title, int place, float width, bool plain);
     void (*close)(void);
     void (*text)(const char *text);
+    void (*code)(const char *text);  /* in letters of one width, in lines as they are */
     void (*note)(const char *text);  /* dimmed */
     void (*alert)(const char *text); /* red */
     void (*row)(const char *name, const char *text);

@@ -14,34 +14,51 @@ namespace
 {
 bool wraps = true;       // text in the box that is open
 float divided = 0;       // where the divider is
+float stacked = 0;       // height of the boxes at the bottom, so far in this frame
+bool stacks = false;     // the box that is open is one of them
+ImFont *columns = nullptr;
 float column = 0;        // where the texts of rows begin
 const float margin = 10; // between the window's edge and a box, of a screen that is not scaled
 
-// A font that people can read, where the system has one; Dear ImGui's own is made of few pixels.
-void choose_font(float scale)
+// The first of the files that is there, or Dear ImGui's own, which is made of few pixels.
+ImFont *load_font(const char *const *files, int count, float size)
 {
-    static const char *const files[] = {
+    static const ImWchar ranges[] = {0x20,   0xff,   0x391,  0x3c9,  0x2013, 0x2026, 0x2190,
+                                     0x2193, 0x2212, 0x2265, 0x2500, 0x257f, 0};
+    ImFontAtlas *fonts = ImGui::GetIO().Fonts;
+    ImFontConfig config;
+    for (int i = 0; i < count; i++) {
+        std::FILE *there = std::fopen(files[i], "rb");
+        if (!there)
+            continue;
+        std::fclose(there);
+        config.OversampleH = 2;
+        config.PixelSnapH = true;
+        ImFont *font = fonts->AddFontFromFileTTF(files[i], std::floor(size), &config, ranges);
+        if (font)
+            return font;
+    }
+    config.SizePixels = std::floor(size);
+    return fonts->AddFontDefault(&config);
+}
+
+// Fonts that people can read, where the system has them; the second for what stands in columns.
+void choose_fonts(float scale)
+{
+    static const char *const plain[] = {
         "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
         "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
         "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
         "/usr/share/fonts/TTF/DejaVuSans.ttf",
     };
-    static const ImWchar ranges[] = {0x20, 0xff, 0x391, 0x3c9, 0x2013, 0x2026, 0x2190, 0x2193, 0};
-    ImFontAtlas *fonts = ImGui::GetIO().Fonts;
-    for (const char *file : files) {
-        std::FILE *there = std::fopen(file, "rb");
-        if (!there)
-            continue;
-        std::fclose(there);
-        ImFontConfig config;
-        config.OversampleH = 2;
-        config.PixelSnapH = true;
-        if (fonts->AddFontFromFileTTF(file, std::floor(14 * scale), &config, ranges))
-            return;
-    }
-    ImFontConfig config;
-    config.SizePixels = std::floor(13 * scale);
-    fonts->AddFontDefault(&config);
+    static const char *const even[] = {
+        "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf",
+        "/usr/share/fonts/truetype/noto/NotoSansMono-Regular.ttf",
+        "/usr/share/fonts/truetype/liberation/LiberationMono-Regular.ttf",
+        "/usr/share/fonts/TTF/DejaVuSansMono.ttf",
+    };
+    load_font(plain, 4, 14 * scale);
+    columns = load_font(even, 4, 12 * scale);
 }
 
 void choose_style(float scale)
@@ -112,7 +129,7 @@ bool turner_window_ui(struct turner_window *window)
     io.IniFilename = nullptr; // leaves no file behind
     io.LogFilename = nullptr;
     float scale = scale_of(window->glfw);
-    choose_font(scale);
+    choose_fonts(scale);
     choose_style(scale);
     ImGui_ImplGlfw_InitForVulkan(window->glfw, false);
     ImGui_ImplVulkan_InitInfo info = {};
@@ -150,6 +167,7 @@ static void begin(struct turner_window *window)
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
     window->began = true;
+    stacked = 0;
 }
 
 void turner_window_ui_draw(struct turner_window *window)
@@ -239,13 +257,16 @@ static void divider(float x)
 
 static bool open_box(const char *title, int place, float width, bool plain)
 {
-    static const float across[] = {0, 1, 0, 0.5f, 1, 0.5f, 1, 0};
-    static const float down[] = {0, 0, 1, 0.5f, 0, 1, 0, 0};
+    static const float across[] = {0, 1, 0, 0.5f, 1, 0.5f, 1, 0, 1};
+    static const float down[] = {0, 0, 1, 0.5f, 0, 1, 0, 0, 1};
     ImVec2 size = ImGui::GetIO().DisplaySize;
     float gap = margin * ImGui::GetFontSize() / 14;
     ImVec2 at(gap + across[place] * (size.x - 2 * gap), gap + down[place] * (size.y - 2 * gap));
     float wide = width * ImGui::GetFontSize();
-    if (place >= 6)
+    stacks = down[place] == 1;
+    if (stacks)
+        at.y -= stacked;
+    if (place == 6 || place == 7)
         at = beside_divider(place == 6, size.x, wide, gap);
     float most = size.x - 2 * gap > 60 ? size.x - 2 * gap : 60;
     bool moves = !plain && place < 2;
@@ -254,7 +275,8 @@ static bool open_box(const char *title, int place, float width, bool plain)
     wide = wide > most ? most : wide;
     ImGui::SetNextWindowSizeConstraints(
         ImVec2(wide, 0), ImVec2(wide > 0 ? wide : most, size.y > 2 * gap + 40 ? size.y - 2 * gap : 40));
-    ImGuiWindowFlags flags = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+    ImGuiWindowFlags flags = ImGuiWindowFlags_HorizontalScrollbar |
+                             ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                              ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
     if (plain)
         flags |= ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs;
@@ -269,6 +291,9 @@ static bool open_box(const char *title, int place, float width, bool plain)
 
 static void close_box(void)
 {
+    if (stacks)
+        stacked += ImGui::GetWindowHeight() + 0.5f * margin;
+    stacks = false;
     ImGui::PopItemWidth();
     ImGui::End();
 }
@@ -297,10 +322,19 @@ static void alert(const char *string)
     colored(string, ImVec4(1, 0.50f, 0.42f, 1));
 }
 
+static void code(const char *string)
+{
+    ImGui::PushFont(columns);
+    ImGui::TextUnformatted(string);
+    ImGui::PopFont();
+}
+
 static void row(const char *name, const char *string)
 {
     ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.66f, 0.66f, 0.68f, 1));
+    ImGui::PushTextWrapPos(column > 0 ? column - 4 : -1.0f);
     ImGui::TextUnformatted(name);
+    ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
     ImGui::SameLine(column);
     text(string);
@@ -374,7 +408,7 @@ static void bar(float share, const char *string)
 }
 
 const struct turner_ui turner_window_ui_functions = {
-    begin,       open_box, close_box, text,    note,  alert, row,    section, slide,
-    slide_whole, number,   numbers,   color,   check, choose, button, beside,  push,
+    begin,       open_box, close_box, text,  code,  note,   alert,  row,    section, slide,
+    slide_whole, number,   numbers,   color, check, choose, button, beside, push,
     pop,         bar,      divider,
 };
