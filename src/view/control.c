@@ -156,10 +156,12 @@ static void against_key(struct turner_session *session, int key)
         turner_session_see(session, heat ? TURNER_SEEN_PICTURE : TURNER_SEEN_AGAINST);
 }
 
-/* Of both sides, where there are two. */
-static void shoot(struct turner_session *session)
+void turner_session_shoot(struct turner_session *session)
 {
     char name[1024], ending[48];
+    if (!session->shoot)
+        return;
+    session->shoot = false;
     if (session->against && session->against->begun) {
         const char *output = session->options->output, *dot = strrchr(output, '.');
         snprintf(ending, sizeof ending, "-against%.32s", dot ? dot : "");
@@ -206,7 +208,7 @@ static void key(struct turner_session *session, const struct turner_window_event
         if (session->against)
             against_key(session, event->key);
         break;
-    case GLFW_KEY_S: shoot(session); break;
+    case GLFW_KEY_S: session->shoot = true; break;
     }
     if (event->key >= GLFW_KEY_0 && event->key <= GLFW_KEY_9)
         choose_camera(session, event->key - GLFW_KEY_0);

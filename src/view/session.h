@@ -32,7 +32,7 @@ struct turner_session {
     bool composed;              /* what the window has of the picture, or of both, is up to date */
     bool dirty;                 /* the window is to be shown anew */
     int settle;                 /* times it is to be shown after that: boxes find their size */
-    bool quit;
+    bool quit, shoot;
 
     enum turner_drag drag;
     double x, y;                /* of the pointer, last */
@@ -66,6 +66,9 @@ void turner_session_say(struct turner_session *session, const char *format, ...)
 
 /* control.c */
 void turner_session_event(struct turner_session *session, const struct turner_window_event *event);
+/* Asks for the picture to be saved, that of both sides where there are two, if S was pressed; after
+ * the painters were told what it is to show. */
+void turner_session_shoot(struct turner_session *session);
 /* Moves the camera by what is held down, or by itself; true as long as it does. */
 bool turner_session_animate(struct turner_session *session);
 

@@ -296,6 +296,7 @@ static enum turner_result loop(struct turner_session *session)
         turner_session_record_frame(session);
         follow_size(session);
         send_wish(session);
+        turner_session_shoot(session);
         bool fresh = turner_painter_take(&session->painter, &session->sight);
         bool first = fresh;
         TURNER_TRY(turner_painter_result(&session->painter));

@@ -7,6 +7,7 @@ import json
 import math
 import os
 import pathlib
+import random
 import shutil
 import signal
 import subprocess
@@ -14,6 +15,8 @@ import sys
 import tempfile
 import time
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
+import exr  # noqa: E402
 from screen import DEVICE, INTERRUPTED, TURNER, USAGE, Screen, Skip, View, check_machine
 from screen import ppm_pixels, render, wait_until
 
@@ -365,6 +368,91 @@ def against(screen):
     view.quit()
     for wrong in ("nothing", "deep=1", "depth=x"):
         View(screen, "scene.json", "--against", wrong).end(USAGE)
+
+
+def heat(share):
+    """The colours of turner compare --heatmap: black, red, yellow, white."""
+    return [min(max(3 * share - i, 0), 1) for i in range(3)]
+
+
+@test
+def shown(screen):
+    """What is shown of the pixels has the numbers that turner render --aov writes."""
+    names = ("normal", "depth", "id", "rays", "recursion", "pruned", "error", "nonfinite")
+    render("scene.json", "layers.exr", "--aov", ",".join(names), "--depth", "2")
+    layers = exr.read("layers.exr").channels
+    finite = [z for z in layers["depth.Z"] if math.isfinite(z)]
+    near, far = min(finite), max(finite)
+    most = {name: max(layers[name + ".X"]) or 1 for name in names[2:]}
+
+    def wanted(name, i):
+        if name == "normal":
+            n = [layers[f"normal.{c}"][i] for c in "XYZ"]
+            return [0.5 + 0.5 * x for x in n] if any(n) else [0, 0, 0]
+        if name == "depth":
+            z = layers["depth.Z"][i]
+            return [1 - 0.9 * (z - near) / (far - near) if math.isfinite(z) else 0] * 3
+        return heat(layers[name + ".X"][i] / most[name])
+
+    view = View(screen, "scene.json", "-q", "--depth", "2", "-o", "shot.ppm", "--show",
+                "normal").find()
+    for name in names:
+        shot = pathlib.Path("shot.ppm")
+        view.key("s")
+        wait_until("nothing was saved", shot.exists)
+        width, height, rgb = ppm_pixels(shot.read_bytes())
+        shot.unlink()
+        pixels = [tuple(rgb[3 * i:3 * i + 3]) for i in range(width * height)]
+        if name == "id":
+            pairs = set(zip(layers["id.X"], pixels))
+            assert len(pairs) == len(set(layers["id.X"])) > 3, "a colour for each"
+        elif name == "nonfinite":
+            assert (255, 0, 255) not in pixels and len(set(pixels)) > 20, "a grey picture"
+        else:
+            for i, pixel in enumerate(pixels):
+                assert near_bytes(pixel, wanted(name, i)), f"{name} {i}: {pixel} {wanted(name, i)}"
+        view.key("v")
+    view.key("s")  # the difference to the reference
+    wait_until("nothing was saved", pathlib.Path("shot.ppm").exists)
+    assert b"\xff\xff\xff" in ppm_pixels(pathlib.Path("shot.ppm").read_bytes())[2], "the largest"
+    view.key("v")
+    view.wait_for_picture(*ppm_pixels(render("scene.json", "wanted.ppm", "--depth", "2")))
+    view.quit()
+
+
+def near_bytes(pixel, wanted):
+    return all(abs(p - 255 * w) <= 1 for p, w in zip(pixel, wanted, strict=True))
+
+
+@test
+def edits(screen):
+    """Edits in any order, half of them broken, many before the last was drawn: never a black window,
+    and what is shown in the end is what the files say."""
+    dice = random.Random(4)
+    hook = pathlib.Path("shaders/user/background.glsl")
+    hook.parent.mkdir(parents=True)
+    good = "vec3 user_background(vec3 direction)\n{\n    return vec3(%.2f, 0.5, 0.8);\n}\n"
+    broken = ["vec3 user_background(vec3 d) { return vec3(1.0) }\n", "#include \"none.glsl\"\n", "",
+              "/* never ended", "//!PARAM x float 3 0 2 \"\"\n", "\x01 } } ;\n"]
+    view = opened(screen)
+    for number in range(60):
+        if dice.random() < 0.4:
+            text = SCENE.replace("0.6", f"{dice.randint(3, 9) / 10}", 1)
+            bad = dice.random() < 0.5
+            pathlib.Path("scene.json").write_text(text[:dice.randrange(len(text))] if bad else text)
+        elif dice.random() < 0.1:
+            hook.unlink(missing_ok=True)
+        else:
+            bad = dice.random() < 0.5
+            hook.write_text(dice.choice(broken) if bad else good % dice.choice((0.1, 0.4, 0.7)))
+        time.sleep(dice.choice((0, 0.02, 0.2)))
+        assert view.process.poll() is None, "it ended"
+        assert len(set(screen.shown(*SIZE))) > 20, f"a black window after edit {number}"
+    pathlib.Path("scene.json").write_text(SCENE.replace("0.6", "0.9", 1))
+    hook.write_text(good % 0.25)
+    wanted = ppm_pixels(render("scene.json", "wanted.ppm"))[2]
+    wait_until("not what the files say", lambda: screen.shown(*SIZE) == wanted)  # nor a message
+    view.quit()
 
 
 @test
