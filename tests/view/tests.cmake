@@ -22,6 +22,7 @@ if(TARGET turner_view)
     endfunction()
     turner_view_test(pace ${PROJECT_SOURCE_DIR}/src/view/pace.c)
     turner_view_test(orbit ${PROJECT_SOURCE_DIR}/src/view/camera.c)
+    turner_view_test(turn ${PROJECT_SOURCE_DIR}/src/view/turn.c)
 endif()
 
 # What a saved scene leaves to be built anew.
