@@ -213,6 +213,13 @@ static bool directive_is(const char *text, const char *word, const char **rest)
     return true;
 }
 
+/* Whether nothing but a comment to the line's end stands at `text`. */
+static bool line_ends(const char *text)
+{
+    text += strspn(text, " \t\r\v\f");
+    return !*text || *text == '\n' || strncmp(text, "//", 2) == 0;
+}
+
 static enum turner_result expand(struct expansion *e, size_t index, bool conditional, int depth);
 
 /* The line `#include …`; `rest` is what follows the word. */
@@ -224,8 +231,7 @@ static enum turner_result expand_include(struct expansion *e, size_t includer, i
     if (end == rest || *end != '"')
         return turner_fail(TURNER_BAD_INPUT, "%s:%d:%d: write #include \"name\"", where, line,
                            column);
-    const char *tail = end + 1 + strspn(end + 1, " \t\r");
-    if (*tail && *tail != '\n' && strncmp(tail, "//", 2) != 0)
+    if (!line_ends(end + 1))
         return turner_fail(TURNER_BAD_INPUT, "%s:%d:%d: nothing may follow #include \"name\"",
                            where, line, column);
     char name[256];
@@ -320,18 +326,22 @@ static enum turner_result expand(struct expansion *e, size_t index, bool conditi
             continue;
         }
         const char *directive = hash < 0 ? NULL : text + hash;
-        if (directive && directive_is(directive, "include", &rest) && *rest != '<') {
+        bool include = directive && directive_is(directive, "include", &rest) && *rest != '<';
+        bool once = !include && directive && directive_is(directive, "pragma", &rest) &&
+                    strncmp(rest, "once", 4) == 0 && line_ends(rest + 4);
+        if (include || once) {
             if (scan.continued || scan.block_comment)
-                return turner_fail(TURNER_BAD_INPUT, "%s:%d:%ld: #include must end on its own line",
-                                   path, line, hash + 1);
+                return turner_fail(TURNER_BAD_INPUT, "%s:%d:%ld: #%s must end on its own line",
+                                   path, line, hash + 1, include ? "include" : "pragma once");
             TURNER_TRY(append(e, text, (size_t)hash)); /* a comment may end here */
+        }
+        if (include) {
             TURNER_TRY(expand_include(e, index, line, (int)hash + 1, rest,
                                       conditional || nested > 0, depth));
             continue;
         }
-        if (directive && directive_is(directive, "pragma", &rest) && !strncmp(rest, "once", 4)) {
-            TURNER_TRY(append(e, text, (size_t)hash)); /* always so here; glslang would warn */
-            TURNER_TRY(append(e, "\n", 1));
+        if (once) {
+            TURNER_TRY(append(e, "\n", 1)); /* always so here; glslang would warn */
             continue;
         }
         if (directive &&

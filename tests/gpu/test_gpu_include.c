@@ -68,6 +68,16 @@ static void lines_are_kept(void **state)
     turner_shader_source_destroy(&source);
 }
 
+/* Of a pragma only the plain `once` is left out: with a comment that goes on, or as the beginning
+ * of a longer word, the text stays. */
+static void other_pragmas_are_kept(void **state)
+{
+    (void)state;
+    write_shader("pragma.comp", "#pragma once // a\n#pragma oncea; /* b\n*/\n"
+                                "#pragma once /* c\n*/\nend\n");
+    expect("pragma.comp", "\n#pragma oncea; /* b\n*/\n#pragma once /* c\n*/\nend\n");
+}
+
 static void a_file_comes_once(void **state)
 {
     (void)state;
@@ -201,6 +211,7 @@ static void errors_say_where(void **state)
         {"#include \"x.glsl\" int a;\n", "wrong.comp:1:1: nothing may follow"},
         {"#include \"x.glsl\" /* a\n */\n", "wrong.comp:1:1: #include must end on its own line"},
         {"#include \"x.glsl\" // a \\\nb\n", "wrong.comp:1:1: #include must end on its own line"},
+        {"#pragma once // a \\\nb\n", "wrong.comp:1:1: #pragma once must end on its own line"},
         {"#include \"\"\n", "must be a name relative to the shader folders"},
         {"#include \"/etc/passwd\"\n", "must be a name relative to the shader folders"},
         {"#include \"../x.glsl\"\n", "must be a name relative to the shader folders"},
@@ -285,6 +296,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_are_kept),
+        cmocka_unit_test(other_pragmas_are_kept),
         cmocka_unit_test(a_file_comes_once),
         cmocka_unit_test(conditions_are_left_to_the_compiler),
         cmocka_unit_test(comments_are_no_directives),
