@@ -1,6 +1,6 @@
-/* The checks on the best Vulkan device: main_device bvh|ray_query [FILTER]. On bvh the kernel is
- * specialised to each scene; on ray_query it is not, which shows that everything at once is right,
- * too, and saves the time of compiling it a hundred times. */
+/* The checks on the best Vulkan device: main_device bvh_packet|bvh_lane|ray_query [FILTER]. One
+ * kernel, that of bvh, is specialised to each scene; the others are not, which shows that everything
+ * at once is right, too, and saves the time of compiling them a hundred times. */
 #include <stdio.h>
 #include <string.h>
 
@@ -12,7 +12,8 @@ static struct turner_kernel kernel;
 
 static enum turner_result render(struct turner_image *image, const struct turner_scene *scene)
 {
-    const struct turner_render_options options = {.unspecialised = kernel.kind & TURNER_RAY_QUERY};
+    const bool bvh = kernel.kind == (gpu.info.packets ? TURNER_PACKET : 0);
+    const struct turner_render_options options = {.unspecialised = !bvh};
     struct turner_statistics statistics = {0};
     struct turner_renderer renderer;
     *image = (struct turner_image){0};

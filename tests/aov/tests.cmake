@@ -7,12 +7,10 @@ foreach(layer IN ITEMS base image scene reference bvh gpu render)
 endforeach()
 set_target_properties(test_aov PROPERTIES LINKER_LANGUAGE CXX)
 
-# turner_aov_test(NAME COMMAND argument…): a device test with a shader cache of its own.
+# turner_aov_test(NAME COMMAND argument…): a device test.
 function(turner_aov_test name command)
     add_test(NAME ${name} COMMAND ${command} ${ARGN})
     set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 LABELS device)
-    set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT
-        "MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/${name}")
 endfunction()
 
 # All kinds of kernel share what differs between scenes: bvh for each, the other two for one.

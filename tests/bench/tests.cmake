@@ -12,10 +12,10 @@ foreach(what IN ITEMS files wrong growth stages interrupted refused)
     add_test(NAME bench_${what} COMMAND Python3::Interpreter
         ${CMAKE_CURRENT_LIST_DIR}/command_bench.py ${what})
     set_tests_properties(bench_${what} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 LABELS device
-        ENVIRONMENT "TURNER=$<TARGET_FILE:turner>;TURNER_SHADERS=${PROJECT_SOURCE_DIR}/shaders;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/bench")
+        ENVIRONMENT "TURNER=$<TARGET_FILE:turner>;TURNER_SHADERS=${PROJECT_SOURCE_DIR}/shaders")
 endforeach()
 
 # Whole programs, by tools/bench.
 add_test(NAME bench_whole COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_LIST_DIR}/whole_bench.py)
 set_tests_properties(bench_whole PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 LABELS device
-    ENVIRONMENT "TURNER=$<TARGET_FILE:turner>;TOOLS=${PROJECT_SOURCE_DIR}/tools;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/bench")
+    ENVIRONMENT "TURNER=$<TARGET_FILE:turner>;TOOLS=${PROJECT_SOURCE_DIR}/tools")

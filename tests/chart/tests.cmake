@@ -10,7 +10,7 @@ foreach(what IN ITEMS whole resume cache flip samples faults)
     add_test(NAME chart_${what} COMMAND Python3::Interpreter
         ${CMAKE_CURRENT_LIST_DIR}/command_chart.py ${what})
     set_tests_properties(chart_${what} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 ENVIRONMENT
-        "TURNER=$<TARGET_FILE:turner>;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/chart")
+        "TURNER=$<TARGET_FILE:turner>")
     if(NOT what STREQUAL "faults")
         set_property(TEST chart_${what} PROPERTY LABELS device)
     endif()

@@ -8,8 +8,7 @@ endforeach()
 target_compile_definitions(test_adaptive PRIVATE TURNER_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 set_target_properties(test_adaptive PROPERTIES LINKER_LANGUAGE CXX)
 add_test(NAME adaptive COMMAND test_adaptive)
-set_tests_properties(adaptive PROPERTIES SKIP_RETURN_CODE 77 LABELS device
-    ENVIRONMENT "TURNER_VALIDATION=1;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/adaptive")
+set_tests_properties(adaptive PROPERTIES SKIP_RETURN_CODE 77 LABELS device)
 
 add_executable(error_measure ${CMAKE_CURRENT_LIST_DIR}/measure.c ${CMAKE_CURRENT_LIST_DIR}/truth.c)
 target_link_libraries(error_measure PRIVATE turner_flags ${turner_libraries})
@@ -24,8 +23,7 @@ function(turner_error_test test scene share tight)
     add_test(NAME ${test} COMMAND error_measure ${PROJECT_SOURCE_DIR}/scenes/${scene}.json 64 48
         0.00392157 --truth ${PROJECT_SOURCE_DIR}/tests/error/truth/${scene}.exr --share ${share}
         --tight ${tight} ${ARGN})
-    set_tests_properties(${test} PROPERTIES SKIP_RETURN_CODE 77 LABELS device
-        ENVIRONMENT "TURNER_VALIDATION=1;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/${test}")
+    set_tests_properties(${test} PROPERTIES SKIP_RETURN_CODE 77 LABELS device)
 endfunction()
 foreach(name IN ITEMS mirrors fresnel phong_terms lights attenuation underwater mesh prism)
     turner_error_test(error_${name} ${name} 0.999 10)
@@ -35,4 +33,4 @@ turner_error_test(error_of_schlick fresnel 0.999 10 --method fresnel=schlick)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME error_command COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/command_error.py)
 set_tests_properties(error_command PROPERTIES SKIP_RETURN_CODE 77 LABELS device
-    ENVIRONMENT "TURNER=$<TARGET_FILE:turner>;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/error_command;TURNER_VALIDATION=1")
+    ENVIRONMENT "TURNER=$<TARGET_FILE:turner>")

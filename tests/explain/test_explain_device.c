@@ -19,9 +19,9 @@ static void assert_ok(enum turner_result result)
 
 static void explain(struct turner_ray_tree *tree, const struct turner_scene *scene, int x, int y)
 {
-    static const struct turner_render_options defaults;
+    static const struct turner_render_options options = {.unspecialised = true};
     struct turner_recorder recorder;
-    assert_ok(turner_recorder_create(&recorder, scene, &defaults));
+    assert_ok(turner_recorder_create(&recorder, scene, &options));
     assert_ok(turner_recorder_trace(tree, &recorder, x, y, 0.5, 0.5));
     turner_recorder_destroy(&recorder);
 }

@@ -16,8 +16,7 @@ endforeach()
 target_compile_definitions(test_explain_device PRIVATE TURNER_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 set_target_properties(test_explain_device PROPERTIES LINKER_LANGUAGE CXX)
 add_test(NAME explain_device COMMAND test_explain_device)
-set_tests_properties(explain_device PROPERTIES SKIP_RETURN_CODE 77 LABELS device ENVIRONMENT
-    "MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/explain_device")
+set_tests_properties(explain_device PROPERTIES SKIP_RETURN_CODE 77 LABELS device)
 
 # The command. Only its last part needs a device.
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
@@ -25,6 +24,6 @@ foreach(what IN ITEMS usage reference device)
     add_test(NAME explain_command_${what} COMMAND Python3::Interpreter
         ${CMAKE_CURRENT_LIST_DIR}/explain_command.py ${what})
     set_tests_properties(explain_command_${what} PROPERTIES SKIP_RETURN_CODE 77 ENVIRONMENT
-        "TURNER=$<TARGET_FILE:turner>;TURNER_SOURCE=${PROJECT_SOURCE_DIR};MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/explain_command_${what}")
+        "TURNER=$<TARGET_FILE:turner>;TURNER_SOURCE=${PROJECT_SOURCE_DIR}")
 endforeach()
 set_property(TEST explain_command_device PROPERTY LABELS device)

@@ -1,10 +1,7 @@
-# The GPU layer. Every program has a shader cache of its own: Mesa's is not to be shared between
-# processes that start at once.
+# The GPU layer.
 foreach(name gpu_include gpu_compiler gpu_layout gpu_device gpu_memory gpu_program gpu_accel
              gpu_faults)
     turner_unit_test(${name} ${CMAKE_CURRENT_LIST_DIR}/test_${name}.c LAYERS base image gpu)
-    set_tests_properties(${name} PROPERTIES ENVIRONMENT
-        "MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/tests/gpu/cache-${name}")
 endforeach()
 target_link_options(test_gpu_faults PRIVATE
     -Wl,--wrap=vkWaitForFences -Wl,--wrap=vkAllocateMemory -Wl,--wrap=vkQueueSubmit

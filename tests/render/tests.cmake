@@ -14,11 +14,10 @@ function(turner_render_test name)
     set_target_properties(test_${name} PROPERTIES LINKER_LANGUAGE CXX)
 endfunction()
 
-# turner_device_test(TEST PROGRAM argument…): with validation, and a shader cache of its own.
+# turner_device_test(TEST PROGRAM argument…)
 function(turner_device_test test program)
     add_test(NAME ${test} COMMAND ${program} ${ARGN})
-    set_tests_properties(${test} PROPERTIES SKIP_RETURN_CODE 77 LABELS device TIMEOUT 600
-        ENVIRONMENT "TURNER_VALIDATION=1;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/${test}")
+    set_tests_properties(${test} PROPERTIES SKIP_RETURN_CODE 77 LABELS device TIMEOUT 600)
 endfunction()
 
 turner_render_test(needs)

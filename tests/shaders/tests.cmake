@@ -8,7 +8,7 @@ function(turner_shader_test name script)
     add_test(NAME shaders_${name} COMMAND Python3::Interpreter
         ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/${script} ${ARGN})
     set_tests_properties(shaders_${name} PROPERTIES LABELS device SKIP_RETURN_CODE 77 TIMEOUT 300
-        ENVIRONMENT "TURNER=$<TARGET_FILE:turner>;TURNER_SOURCE=${PROJECT_SOURCE_DIR};PYTHONDONTWRITEBYTECODE=1;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/shaders_${name}")
+        ENVIRONMENT "TURNER=$<TARGET_FILE:turner>;TURNER_SOURCE=${PROJECT_SOURCE_DIR};PYTHONDONTWRITEBYTECODE=1")
 endfunction()
 turner_shader_test(hooks hooks.py
     plain brdf surface background light post folders reference everything free)
@@ -27,8 +27,7 @@ foreach(program IN ITEMS test_reload reload_seconds)
     set_target_properties(${program} PROPERTIES LINKER_LANGUAGE CXX)
 endforeach()
 add_test(NAME shaders_reload COMMAND test_reload)
-set_tests_properties(shaders_reload PROPERTIES LABELS device SKIP_RETURN_CODE 77 TIMEOUT 300
-    ENVIRONMENT "MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/shaders_reload")
+set_tests_properties(shaders_reload PROPERTIES LABELS device SKIP_RETURN_CODE 77 TIMEOUT 300)
 turner_shader_test(watch watch.py shaders scene hard)
 turner_shader_test(compare compare.py differences errors)
 turner_shader_test(examples examples.py marble blinn toon listed)

@@ -6,6 +6,5 @@ foreach(name IN ITEMS whitted1980 water_glass instances environment)
         -DSCENE=${PROJECT_SOURCE_DIR}/scenes/${name}.json -DWORK=${PROJECT_BINARY_DIR}/tests/smoke/${name}
         -P ${CMAKE_CURRENT_LIST_DIR}/run.cmake)
     set_tests_properties(smoke_${name} PROPERTIES
-        LABELS "device;smoke" SKIP_REGULAR_EXPRESSION "smoke test skipped: " TIMEOUT 300
-        ENVIRONMENT "TURNER_VALIDATION=1;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/smoke_${name}")
+        LABELS "device;smoke" SKIP_REGULAR_EXPRESSION "smoke test skipped: " TIMEOUT 300)
 endforeach()

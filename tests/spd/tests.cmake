@@ -25,8 +25,7 @@ foreach(scene IN LISTS spd_scenes)
             set_tests_properties(${name} PROPERTIES
                 SKIP_RETURN_CODE 77 PROCESSORS 2 TIMEOUT 300)
             if(NOT way STREQUAL reference)
-                set_tests_properties(${name} PROPERTIES LABELS device ENVIRONMENT
-                    "MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/${name}")
+                set_tests_properties(${name} PROPERTIES LABELS device)
             endif()
         endforeach()
     endforeach()

@@ -9,8 +9,7 @@ foreach(subject IN ITEMS sphere leave triangle fresnel phong place recursion aa)
     endif()
     add_test(NAME stability_${subject} COMMAND turner stability --quick ${rows})
     set_tests_properties(stability_${subject} PROPERTIES LABELS "device;stability" TIMEOUT 600
-        SKIP_REGULAR_EXPRESSION "no Vulkan driver found"
-        ENVIRONMENT "MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/stability_${subject}")
+        SKIP_REGULAR_EXPRESSION "no Vulkan driver found")
 endforeach()
 
 # The figures that others have published, and the files of a report.
@@ -19,8 +18,7 @@ add_test(NAME stability_report COMMAND Python3::Interpreter -B
     ${CMAKE_CURRENT_LIST_DIR}/check_report.py $<TARGET_FILE:turner>
     ${PROJECT_BINARY_DIR}/tests/stability/report)
 set_tests_properties(stability_report PROPERTIES LABELS "device;stability" SKIP_RETURN_CODE 77
-    TIMEOUT 600
-    ENVIRONMENT "MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/stability_report")
+    TIMEOUT 600)
 
 # The judge sees what it has to see. No device.
 set(sources ${CMAKE_CURRENT_LIST_DIR}/test_stability_verdict.c

@@ -10,7 +10,7 @@ string(REPLACE "\n" ";" view_tests "${view_tests}")
 foreach(name IN LISTS view_tests)
     add_test(NAME view_${name} COMMAND Python3::Interpreter ${view_script} ${name})
     set_tests_properties(view_${name} PROPERTIES SKIP_RETURN_CODE 77 LABELS device TIMEOUT 600
-        ENVIRONMENT "TURNER=$<TARGET_FILE:turner>;PYTHONDONTWRITEBYTECODE=1;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/view")
+        ENVIRONMENT "TURNER=$<TARGET_FILE:turner>;PYTHONDONTWRITEBYTECODE=1")
 endforeach()
 
 # What needs no window.
@@ -30,6 +30,5 @@ if(TARGET turner)
     turner_unit_test(view_move ${CMAKE_CURRENT_LIST_DIR}/test_view_move.c
         LAYERS base image scene reference bvh gpu render LIBRARIES ${turner_libraries})
     set_target_properties(test_view_move PROPERTIES LINKER_LANGUAGE CXX)
-    set_tests_properties(view_move PROPERTIES LABELS device
-        ENVIRONMENT "MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/view")
+    set_tests_properties(view_move PROPERTIES LABELS device)
 endif()

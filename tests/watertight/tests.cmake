@@ -6,5 +6,4 @@ foreach(layer IN ITEMS base image scene reference bvh gpu render)
 endforeach()
 set_target_properties(test_watertight PROPERTIES LINKER_LANGUAGE CXX)
 add_test(NAME watertight COMMAND test_watertight)
-set_tests_properties(watertight PROPERTIES SKIP_RETURN_CODE 77 LABELS device PROCESSORS 2
-    ENVIRONMENT "MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/watertight")
+set_tests_properties(watertight PROPERTIES SKIP_RETURN_CODE 77 LABELS device PROCESSORS 2)
