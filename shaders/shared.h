@@ -325,7 +325,8 @@ TURNER_STRUCT(turner_gpu_dispatch)
     TURNER_UINT64 counters;  /* rays.comp: the hits */
     TURNER_UINT64 pixel_counts; /* as many as `pixels`, with TURNER_CONSTANT_PIXEL_COUNTS */
     TURNER_UINT64 params;    /* values of the live parameters, where the kernel has any */
-    TURNER_UINT64 positions; /* list: `count` places in the picture, in pixels; or 0: a tile */
+    TURNER_UINT64 positions; /* list: `count` places in the picture, in pixels; or 0: a tile.
+                                deferred.comp: what is visible in the tile */
     uint tile_x;             /* the tile's place in the picture */
     uint tile_y;
     uint tile_width;
@@ -337,6 +338,20 @@ TURNER_STRUCT(turner_gpu_dispatch)
     uint max_depth;
     float cutoff;
 };
+
+/* What the ray through a pixel's centre meets, and the lights that are seen from there
+ * (visibility.comp, deferred.comp). */
+TURNER_STRUCT(turner_gpu_visible)
+{
+    float t;
+    uint id; /* as above; TURNER_NO_INDEX for the background */
+    uint primitive;
+    uint instance;
+    float coordinates[2];
+    uint lit; /* bit i: nothing opaque is between it and light i; those from TURNER_LIT_LIGHTS on are
+                 not asked, and count as seen */
+};
+#define TURNER_LIT_LIGHTS 32
 
 /* What the ray through a pixel's centre meets (features.comp). */
 TURNER_STRUCT(turner_gpu_feature)

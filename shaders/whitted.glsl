@@ -1,27 +1,8 @@
 // Whitted's recursion without recursion: one loop in which every turn traces one ray, be it a
 // camera, reflected, refracted or shadow ray. A hit is shaded in as many turns as it has lights to
 // ask; the rays it sends on wait meanwhile, the first beside, the second on a stack.
-#include "elementary.glsl"
-#include "media.glsl"
+#include "meeting.glsl"
 #include "trace.glsl"
-#include "texture.glsl"
-#include "surface.glsl"
-#include "material.glsl"
-#include "fresnel.glsl"
-#include "light.glsl"
-#include "background.glsl"
-#include "user/surface.glsl"
-#include "user/brdf.glsl"
-#include "user/background.glsl"
-#include "user/light.glsl"
-
-// For turner explain (record.glsl); otherwise these lines say nothing.
-#ifdef TURNER_RECORD
-#define RECORD(call) call
-void record_fresnel(vec3 fresnel);
-#else
-#define RECORD(call)
-#endif
 
 struct path_t { // a ray that carries light to the picture
     ray_t ray;
@@ -30,20 +11,15 @@ struct path_t { // a ray that carries light to the picture
     uint64_t media;
 };
 
-struct shading_t { // the surface being lit
-    surface_t surface;
-    turner_gpu_material material;
-    real3 ng, N, V; // the normals on V's side
-    vec3 weight;
-    uint64_t media; // on V's side
-    uint light;     // the next to ask
-};
-
 struct secondary_t { // what a surface sends on
     real3 reflected, refracted; // directions
     vec3 w_r, w_t;              // weights relative to the ray that came
     bool total;                 // total internal reflection
 };
+
+#ifdef TURNER_RECORD
+#include "record.glsl"
+#endif
 
 // W_r, W_t and directions, docs/model.md "Secondary rays".
 secondary_t secondary_rays(turner_gpu_material material, bool transmissive, real3 ng, real3 N,
@@ -132,60 +108,6 @@ void add(inout sum_t sum, vec3 term)
     precise vec3 value = sum.value + mended;
     precise vec3 lost = (value - sum.value) - mended;
     sum = sum_t(value, lost);
-}
-
-// What a ray met; a transmissive surface between a medium and itself is none, no boundary.
-struct meeting_t {
-    surface_t surface;
-    turner_gpu_material material;
-    crossing_t crossing; // lists of media on the ray's side and beyond
-};
-
-meeting_t meet(ray_t ray, hit_t hit, uint64_t media)
-{
-    meeting_t met;
-    met.surface = surface_of(ray, hit);
-    met.material = material_at(met.surface);
-    user_surface(met.material, met.surface.ns, met.surface);
-    met.crossing = crossing_t(media, media, true);
-    if (NEEDS_ANY(TURNER_NEEDS_MEDIA) && met.surface.transmissive)
-        met.crossing = media_cross(media, met.material.medium + 1u,
-                                   dot(ray.direction, met.surface.ng) < 0.0);
-    return met;
-}
-
-// The surface as its lights see it; one that reflects no light asks none.
-shading_t shading_of(meeting_t met, real3 V, vec3 weight)
-{
-    real3 ng = dot(met.surface.ng, V) < 0.0 ? -met.surface.ng : met.surface.ng;
-    real3 N = dot(met.surface.ns, ng) < 0.0 ? -met.surface.ns : met.surface.ns;
-    bool dark = met.material.k_d == vec3(0.0) && met.material.k_s == vec3(0.0);
-    return shading_t(met.surface, met.material, ng, N, V, weight, met.crossing.before,
-                     dark ? scene.light_count : 0u);
-}
-
-#ifdef TURNER_RECORD
-#include "record.glsl"
-#endif
-
-// The next light that reaches the surface from the front: the ray to it, and what arrives in the
-// pixel if nothing is in the way. False when all have been asked.
-bool next_light(inout shading_t shading, out ray_t ray, out vec3 light)
-{
-    while (shading.light < scene.light_count) {
-        uint index = shading.light++;
-        arrival_t arrival = user_light(light_array(scene.lights).at[index], index,
-                                       shading.surface.point);
-        RECORD(record_light(shading, index, arrival));
-        if (!(dot(shading.N, arrival.direction) > 0.0) || arrival.irradiance == vec3(0.0))
-            continue;
-        light = shading.weight * arrival.irradiance *
-                user_brdf(shading.material, shading.N, shading.V, arrival.direction);
-        ray = spawn_ray(shading.surface, arrival.direction, arrival.distance);
-        RECORD(record_shadow(ray));
-        return true;
-    }
-    return false;
 }
 
 // Radiance along the camera ray, and the sum of the weights that were cut in the fourth component.

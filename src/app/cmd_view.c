@@ -276,6 +276,7 @@ static char *report_json(struct turner_view_report *report)
     cJSON_AddNumberToObject(changes, "built", report->changes.built);
     cJSON_AddNumberToObject(changes, "painted", report->changes.painted);
     cJSON_AddNumberToObject(changes, "moved", report->changes.moved);
+    cJSON_AddNumberToObject(changes, "previewed", report->changes.previewed);
     if (report->sides)
         add_sides(object, report);
     char *text = cJSON_Print(object);

@@ -287,6 +287,17 @@ enum turner_result turner_compile(struct turner_spirv *out,
     return result;
 }
 
+void turner_compiler_warm(void)
+{
+    struct turner_shader_source source;
+    struct turner_spirv spirv;
+    if (turner_shader_source_from_text(&source, "warm", "#version 460\nvoid main()\n{\n}\n", NULL,
+                                       0) == TURNER_OK &&
+        turner_compile(&spirv, &source, NULL, 0) == TURNER_OK)
+        turner_spirv_destroy(&spirv);
+    turner_shader_source_destroy(&source);
+}
+
 void turner_spirv_destroy(struct turner_spirv *spirv)
 {
     free(spirv->words);

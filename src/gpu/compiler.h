@@ -19,6 +19,9 @@ enum turner_result turner_compile(struct turner_spirv *out,
                                   const char *const *defines, size_t define_count);
 void turner_spirv_destroy(struct turner_spirv *spirv);
 
+/* Has glslang read what GLSL has built in, which the first turner_compile of a process waits for. */
+void turner_compiler_warm(void);
+
 /* TURNER_BAD_INPUT with the validator's message unless `spirv` is valid for Vulkan 1.3 with scalar
  * block layout. */
 enum turner_result turner_spirv_validate(const struct turner_spirv *spirv);

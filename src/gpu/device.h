@@ -1,6 +1,6 @@
 /* The Vulkan instance, device and queue; what a device can do; one-time commands.
  *
- * One turner_gpu per process at a time, used from one thread. Needs Vulkan 1.3 with
+ * A turner_gpu is used from one thread, but for programs, which any may make. Needs Vulkan 1.3 with
  * bufferDeviceAddress, shaderInt64 and scalarBlockLayout; ray queries are used where present. */
 #ifndef TURNER_GPU_DEVICE_H
 #define TURNER_GPU_DEVICE_H

@@ -237,5 +237,8 @@ enum turner_result turner_renderer_draw(struct turner_renderer *renderer,
                    ? turner_adaptive_draw(renderer, image, options, statistics)
                    : draw_regular(renderer, image, options, statistics));
     add_counters(renderer, statistics);
+    if (renderer->before_post && renderer->post.wanted)
+        memcpy(renderer->before_post->rgba, image->rgba,
+               4 * sizeof *image->rgba * (size_t)image->width * (size_t)image->height);
     return turner_post_draw(image, &renderer->post, renderer->gpu);
 }

@@ -331,8 +331,8 @@ static enum turner_result read_tree(struct turner_ray_tree *tree, const struct t
         read_ray(&reader, TURNER_RAY_CAMERA, 0);
     if (count == 0 || reader.broken || reader.next < reader.count)
         return turner_fail(TURNER_BAD_INPUT,
-                           "the shaders note down %s; a whitted.glsl of one's own must keep the "
-                           "RECORD(…) lines of turner's",
+                           "the shaders note down %s; a whitted.glsl or meeting.glsl of one's own "
+                           "must keep the RECORD(…) lines of turner's",
                            count == 0 ? "nothing" : "what makes no tree of rays");
     return TURNER_OK;
 }

@@ -1,40 +1,15 @@
 #include "render/reload.h"
 
-#include <limits.h>
-#include <pthread.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/hash.h"
 #include "base/memory.h"
-#include "gpu/cached.h"
 #include "render/hooks.h"
+#include "render/rebuild.h"
 #include "render/shader_watch.h"
 #include "../shaders/shared.h"
-
-/* A renderer's program to be made: that of the picture, or of its accurate twin. */
-struct part {
-    struct turner_needs needs, needs_of_surface; /* the second when that hook is replaced */
-    uint32_t bvh_depth;
-    struct turner_program program;
-};
-
-/* One kernel being made. The thread has it alone until `done`. */
-struct build {
-    pthread_t thread;
-    atomic_bool done;
-    uint64_t text; /* hash of the source and of what else decides the kernel */
-    struct turner_shader_source source, post_source;
-    struct turner_kernel kernel, post_kernel;
-    struct part parts[2];
-    int part_count;
-    struct turner_post post;
-    enum turner_result result;
-    char *message;
-    double start, seconds;
-};
 
 struct turner_reload {
     struct turner_renderer *renderer;
@@ -44,9 +19,13 @@ struct turner_reload {
     enum turner_reload_state state;
     uint64_t wanted;      /* hash of what the files say now */
     uint64_t current;     /* of what the renderer has */
-    struct build *build;  /* under way, or finished and not taken, or NULL */
+    struct turner_rebuild *build; /* under way, or finished and not taken, or NULL */
+    struct turner_rebuild *stale; /* NULL, or one under way that nobody waits for */
     char *message;
     double seconds;
+    bool previews;                 /* are wanted */
+    struct turner_preview preview;
+    struct turner_lighting lighting; /* by the hooks that the renderer has */
 };
 
 /* ---- what is kept of options and scene ---- */
@@ -62,7 +41,7 @@ static void copy_options(struct turner_reload *reload, const struct turner_rende
     reload->options.progress = NULL;
 }
 
-static void copy_scene(struct turner_reload *reload, const struct turner_scene *scene)
+static struct turner_scene *copy_of(const struct turner_scene *scene)
 {
     struct turner_scene *copy = turner_scene_create();
     copy->settings = scene->settings;
@@ -70,82 +49,7 @@ static void copy_scene(struct turner_reload *reload, const struct turner_scene *
     copy->shaders = scene->shaders ? turner_strdup(scene->shaders) : NULL;
     for (size_t i = 0; i < scene->param_count; i++)
         turner_scene_set_param(copy, scene->params[i].name, scene->params[i].value);
-    turner_scene_destroy(reload->scene);
-    reload->scene = copy;
-}
-
-/* ---- the thread ---- */
-
-static enum turner_result make_part(struct part *part, struct turner_gpu *gpu,
-                                    const struct turner_kernel *kernel,
-                                    const struct turner_scene *scene, bool no_cache)
-{
-    struct turner_constant constants[TURNER_KERNEL_CONSTANTS];
-    size_t count;
-    struct turner_spirv special;
-    if (kernel->hooks & 1u << TURNER_HOOK_SURFACE)
-        part->needs = part->needs_of_surface;
-    TURNER_TRY(turner_kernel_specialisation(constants, &count, kernel, &part->needs,
-                                            part->bvh_depth, scene));
-    TURNER_TRY(no_cache ? turner_spirv_reduce(&special, &kernel->spirv, constants, count)
-                        : turner_spirv_reduce_cached(&special, NULL, &kernel->spirv, constants,
-                                                     count));
-    enum turner_result result = turner_spirv_validate(&special); /* half of what it was */
-    if (result == TURNER_OK)
-        result = turner_program_create(&part->program, gpu, &special, NULL, 0, VK_NULL_HANDLE);
-    turner_spirv_destroy(&special);
-    return result;
-}
-
-struct work {
-    struct build *build;
-    struct turner_gpu *gpu;
-    const struct turner_scene *scene; /* nobody else changes it while this runs */
-    unsigned kind;
-    bool no_cache;
-};
-
-static enum turner_result make(const struct work *work)
-{
-    struct build *build = work->build;
-    TURNER_TRY(turner_kernel_compile(&build->kernel, work->kind, &build->source, work->no_cache));
-    for (int i = 0; i < build->part_count; i++)
-        TURNER_TRY(make_part(&build->parts[i], work->gpu, &build->kernel, work->scene,
-                             work->no_cache));
-    if (!(turner_hooks_of(&build->post_source) & 1u << TURNER_HOOK_POST))
-        return TURNER_OK;
-    TURNER_TRY(turner_kernel_compile(&build->post_kernel, 0, &build->post_source, work->no_cache));
-    TURNER_TRY(turner_spirv_validate(&build->post_kernel.spirv));
-    return turner_post_create_program(&build->post, work->gpu, &build->post_kernel, work->scene);
-}
-
-static void *run(void *user)
-{
-    struct work *work = user;
-    struct build *build = work->build;
-    build->result = make(work);
-    if (build->result != TURNER_OK)
-        build->message = turner_strdup(turner_message()); /* each thread has its own */
-    build->seconds = turner_seconds() - build->start;
-    free(work);
-    atomic_store(&build->done, true);
-    return NULL;
-}
-
-static void build_destroy(struct build *build, struct turner_gpu *gpu)
-{
-    if (!build)
-        return;
-    pthread_join(build->thread, NULL);
-    for (int i = 0; i < build->part_count; i++)
-        turner_program_destroy(gpu, &build->parts[i].program);
-    turner_post_destroy(gpu, &build->post);
-    turner_kernel_destroy(&build->kernel);
-    turner_kernel_destroy(&build->post_kernel);
-    turner_shader_source_destroy(&build->source);
-    turner_shader_source_destroy(&build->post_source);
-    free(build->message);
-    free(build);
+    return copy;
 }
 
 /* ---- the owner ---- */
@@ -156,96 +60,81 @@ static void set_message(struct turner_reload *reload, const char *message)
     reload->message = turner_strdup(message);
 }
 
-static struct part part_of(const struct turner_renderer *renderer)
+static void start(struct turner_reload *reload, struct turner_sources *sources)
 {
-    return (struct part){.needs = renderer->needs_of_scene,
-                         .needs_of_surface = renderer->needs_of_surface,
-                         .bvh_depth = renderer->flat.max_depth};
-}
-
-static void start(struct turner_reload *reload, struct turner_shader_source *source,
-                  struct turner_shader_source *post_source)
-{
-    struct turner_renderer *renderer = reload->renderer;
-    struct build *build = turner_calloc(1, sizeof *build);
-    struct work *work = turner_calloc(1, sizeof *work);
-    build->text = reload->wanted;
-    build->source = *source;
-    build->post_source = *post_source;
-    *source = *post_source = (struct turner_shader_source){0};
-    build->parts[build->part_count++] = part_of(renderer);
-    if (renderer->accurate)
-        build->parts[build->part_count++] = part_of(renderer->accurate);
-    build->start = turner_seconds();
-    *work = (struct work){.build = build,
-                          .gpu = renderer->gpu,
-                          .scene = reload->scene,
-                          .kind = renderer->kind,
-                          .no_cache = reload->options.no_cache};
-    reload->build = build;
-    reload->state = TURNER_RELOAD_BUILDING;
-    if (pthread_create(&build->thread, NULL, run, work) == 0)
+    if (turner_rebuild_create(&reload->build, reload->renderer, copy_of(reload->scene), sources,
+                              reload->wanted, reload->options.no_cache) == TURNER_OK)
         return;
-    reload->build = NULL;
-    free(build);
-    free(work);
-    set_message(reload, "no thread can be started to compile shaders in");
+    set_message(reload, turner_message());
     reload->state = TURNER_RELOAD_BROKEN;
 }
 
 /* Everything that decides the kernel, and the values it begins with, but the renderer itself. */
-static uint64_t hash_of(const struct turner_reload *reload,
-                        const struct turner_shader_source *source,
-                        const struct turner_shader_source *post_source)
+static uint64_t hash_of(const struct turner_reload *reload, const struct turner_sources *sources)
 {
-    const uint64_t sources[2] = {turner_source_hash(source), turner_source_hash(post_source)};
-    uint64_t hash = turner_hash_bytes(TURNER_HASH_START, sources, sizeof sources);
+    const uint64_t texts[2] = {turner_source_hash(&sources->picture),
+                               turner_source_hash(&sources->post)};
+    uint64_t hash = turner_hash_bytes(TURNER_HASH_START, texts, sizeof texts);
     struct turner_constant constants[2 * TURNER_PARAM_WORDS];
     size_t count = 0;
     enum turner_result result =
-        turner_params_constants(constants, &count, &source->params, reload->scene);
+        turner_params_constants(constants, &count, &sources->picture.params, reload->scene);
     if (result == TURNER_OK)
-        turner_params_constants(constants, &count, &post_source->params, reload->scene);
+        turner_params_constants(constants, &count, &sources->post.params, reload->scene);
     return turner_hash_bytes(hash, constants, count * sizeof *constants);
 }
 
 /* Reads the files, and watches them as they are now. */
 static enum turner_result read_sources(struct turner_reload *reload,
-                                       struct turner_shader_source *source,
-                                       struct turner_shader_source *post_source,
-                                       struct timespec since)
+                                       struct turner_sources *sources, struct timespec since)
 {
     struct turner_render_options whole = reload->options;
     struct turner_shader_path path;
     turner_shader_path_create(&path, &whole, reload->scene);
     turner_watch_clear(&reload->watch);
-    *post_source = (struct turner_shader_source){0};
+    *sources = (struct turner_sources){0};
     enum turner_result result = turner_shader_source_create(
-        source, "render.comp", whole.shader_dirs, whole.shader_dir_count);
-    turner_shader_watch_add(&reload->watch, source, &path, since);
+        &sources->picture, "render.comp", whole.shader_dirs, whole.shader_dir_count);
+    turner_shader_watch_add(&reload->watch, &sources->picture, &path, since);
     if (result == TURNER_OK) {
-        result = turner_shader_source_create(post_source, "post.comp", whole.shader_dirs,
+        result = turner_shader_source_create(&sources->post, "post.comp", whole.shader_dirs,
                                              whole.shader_dir_count);
-        turner_shader_watch_add(&reload->watch, post_source, &path, since);
+        turner_shader_watch_add(&reload->watch, &sources->post, &path, since);
     }
     turner_shader_watch_folder(&reload->watch, reload->scene, since);
     turner_shader_path_destroy(&path);
     return result;
 }
 
+/* The same for what shows a changed hook soon; what cannot be read stays without text. */
+static void read_previews(const struct turner_reload *reload, struct turner_sources *sources,
+                          bool first)
+{
+    struct turner_render_options whole = reload->options;
+    struct turner_shader_path path;
+    turner_shader_path_create(&path, &whole, reload->scene);
+    if (turner_shader_source_create(&sources->lighting, "deferred.comp", whole.shader_dirs,
+                                    whole.shader_dir_count) != TURNER_OK)
+        turner_shader_source_destroy(&sources->lighting);
+    if (first && turner_shader_source_create(&sources->visibility, "visibility.comp",
+                                             whole.shader_dirs,
+                                             whole.shader_dir_count) != TURNER_OK)
+        turner_shader_source_destroy(&sources->visibility);
+    turner_shader_path_destroy(&path);
+}
+
 /* The files say something else, perhaps: what is to be done about it. */
 static void look(struct turner_reload *reload)
 {
-    struct turner_shader_source source, post_source;
-    enum turner_result result =
-        read_sources(reload, &source, &post_source, turner_watch_now());
+    struct turner_sources sources;
+    enum turner_result result = read_sources(reload, &sources, turner_watch_now());
     reload->seconds = 0;
     if (result != TURNER_OK) {
         reload->wanted = 0;
         set_message(reload, turner_message());
         reload->state = TURNER_RELOAD_BROKEN;
     } else {
-        uint64_t text = hash_of(reload, &source, &post_source);
+        uint64_t text = hash_of(reload, &sources);
         bool same = text == reload->wanted; /* saved, but as it was */
         reload->wanted = text;
         if (text == reload->current) {
@@ -255,30 +144,44 @@ static void look(struct turner_reload *reload)
             reload->state = TURNER_RELOAD_BUILDING;
         }
     }
-    bool begin = reload->state == TURNER_RELOAD_BUILDING && !reload->build;
-    if (begin)
-        start(reload, &source, &post_source);
-    turner_shader_source_destroy(&source);
-    turner_shader_source_destroy(&post_source);
+    struct turner_rebuild *build = reload->build;
+    bool stale = build && build->sources.picture.text && build->text != reload->wanted;
+    if (reload->state == TURNER_RELOAD_BUILDING && stale && !reload->stale) {
+        atomic_store(&build->given_up, true);
+        reload->stale = build;
+        reload->build = NULL;
+    }
+    if (reload->state == TURNER_RELOAD_BUILDING && !reload->build) {
+        if (reload->preview.visibility.pipeline)
+            read_previews(reload, &sources, false);
+        start(reload, &sources);
+    }
+    turner_sources_destroy(&sources);
 }
 
 /* A build has ended: it counts if nothing has changed since it began. */
 static void harvest(struct turner_reload *reload)
 {
-    struct build *build = reload->build;
-    if (build->text == reload->wanted && build->result == TURNER_OK) {
+    struct turner_rebuild *build = reload->build;
+    bool picture = build->sources.picture.text;
+    if (picture && build->text == reload->wanted && build->result == TURNER_OK) {
         reload->seconds = build->seconds;
         reload->state = TURNER_RELOAD_READY;
         set_message(reload, "");
         return; /* it waits for the swap */
     }
-    bool broken = build->text == reload->wanted;
+    bool broken = picture && build->text == reload->wanted;
     if (broken) {
         set_message(reload, build->message);
         reload->state = TURNER_RELOAD_BROKEN;
+    } else if (!picture && build->text == reload->current) {
+        reload->lighting = build->lighting;
+        reload->preview.visibility = build->visibility;
+        build->lighting = (struct turner_lighting){0};
+        build->visibility = (struct turner_program){0};
     }
     reload->build = NULL;
-    build_destroy(build, reload->renderer->gpu);
+    turner_rebuild_destroy(build);
     if (!broken && reload->state == TURNER_RELOAD_BUILDING)
         look(reload); /* for what the files say now */
 }
@@ -287,9 +190,14 @@ enum turner_reload_state turner_reload_poll(struct turner_reload *reload)
 {
     if (turner_watch_changed(&reload->watch))
         look(reload);
-    struct build *build = reload->build;
-    bool stale = build && build->text != reload->wanted;
-    if (build && atomic_load(&build->done) && (reload->state == TURNER_RELOAD_BUILDING || stale))
+    if (reload->stale && atomic_load(&reload->stale->done)) {
+        turner_rebuild_destroy(reload->stale);
+        reload->stale = NULL;
+    }
+    struct turner_rebuild *build = reload->build;
+    if (build && atomic_load(&build->done) &&
+        (reload->state == TURNER_RELOAD_BUILDING || build->text != reload->wanted ||
+         !build->sources.picture.text))
         harvest(reload);
     return reload->state;
 }
@@ -312,7 +220,7 @@ double turner_reload_seconds(const struct turner_reload *reload)
 /* ---- the swap ---- */
 
 /* A renderer takes a program; buffers are made before anything of the old goes. */
-static enum turner_result take_part(struct turner_renderer *renderer, struct part *part,
+static enum turner_result take_part(struct turner_renderer *renderer, struct turner_part *part,
                                     const struct turner_kernel *kernel,
                                     const struct turner_scene *scene)
 {
@@ -336,7 +244,7 @@ done:
     return result;
 }
 
-static enum turner_result take(struct turner_reload *reload, struct build *build,
+static enum turner_result take(struct turner_reload *reload, struct turner_rebuild *build,
                                const struct turner_scene *scene)
 {
     struct turner_renderer *renderer = reload->renderer;
@@ -348,7 +256,7 @@ static enum turner_result take(struct turner_reload *reload, struct build *build
     TURNER_TRY(take_part(renderer, &build->parts[0], &build->kernel, scene));
     turner_post_destroy(renderer->gpu, &renderer->post);
     if (!build->post.wanted) /* else it knows */
-        build->post.source = turner_source_hash(&build->post_source);
+        build->post.source = turner_source_hash(&build->sources.post);
     renderer->post = build->post;
     renderer->source = build->kernel.source;
     build->post = (struct turner_post){0};
@@ -358,7 +266,7 @@ static enum turner_result take(struct turner_reload *reload, struct build *build
 enum turner_result turner_reload_swap(struct turner_reload *reload, struct turner_kernel *kernel,
                                       const struct turner_scene *scene)
 {
-    struct build *build = reload->build;
+    struct turner_rebuild *build = reload->build;
     if (reload->state != TURNER_RELOAD_READY)
         return TURNER_OK;
     enum turner_result result = take(reload, build, scene);
@@ -369,10 +277,14 @@ enum turner_result turner_reload_swap(struct turner_reload *reload, struct turne
         turner_kernel_destroy(kernel);
         *kernel = build->kernel;
         build->kernel = (struct turner_kernel){0};
+        turner_lighting_destroy(reload->renderer->gpu, &reload->lighting);
+        reload->lighting = build->lighting;
+        build->lighting = (struct turner_lighting){0};
+        reload->preview.recorded = false;
     } else {
         set_message(reload, turner_message());
     }
-    build_destroy(build, reload->renderer->gpu);
+    turner_rebuild_destroy(build);
     return result;
 }
 
@@ -380,15 +292,72 @@ enum turner_result turner_reload_set_params(struct turner_reload *reload,
                                             const struct turner_scene *scene)
 {
     TURNER_TRY(turner_renderer_set_params(reload->renderer, scene));
-    struct build *build = reload->build; /* reads the scene that goes */
-    reload->build = NULL;
-    build_destroy(build, reload->renderer->gpu);
-    copy_scene(reload, scene);
-    if (build || reload->state == TURNER_RELOAD_BROKEN)
+    turner_scene_destroy(reload->scene);
+    reload->scene = copy_of(scene);
+    if (reload->build || reload->state == TURNER_RELOAD_BROKEN)
         reload->wanted = 0;
     look(reload);
     return TURNER_OK;
 }
+
+/* ---- previews ---- */
+
+void turner_reload_want_previews(struct turner_reload *reload, bool wanted)
+{
+    reload->previews = wanted;
+    if (!wanted)
+        turner_preview_destroy(reload->renderer->gpu, &reload->preview);
+}
+
+void turner_reload_forget(struct turner_reload *reload)
+{
+    reload->preview.recorded = false;
+}
+
+/* The kernels that previews take are made when nothing else is to be. */
+static void prepare_previews(struct turner_reload *reload)
+{
+    struct turner_sources sources = {0};
+    reload->previews = false; /* what fails once does so again */
+    read_previews(reload, &sources, true);
+    if (sources.lighting.text && sources.visibility.text)
+        start(reload, &sources);
+    turner_sources_destroy(&sources);
+}
+
+enum turner_result turner_reload_rest(struct turner_reload *reload,
+                                      const struct turner_scene *scene,
+                                      const struct turner_render_options *options)
+{
+    if (reload->state != TURNER_RELOAD_CURRENT || reload->build)
+        return TURNER_OK;
+    if (reload->previews)
+        prepare_previews(reload);
+    if (reload->preview.recorded || !reload->preview.visibility.pipeline ||
+        !reload->lighting.program.pipeline)
+        return TURNER_OK;
+    return turner_preview_record(&reload->preview, reload->renderer, &reload->lighting, scene,
+                                 options);
+}
+
+bool turner_reload_has_preview(const struct turner_reload *reload)
+{
+    const struct turner_rebuild *build = reload->build;
+    return build && build->text == reload->wanted && reload->preview.recorded &&
+           !build->lighting_shown && atomic_load(&build->lit) &&
+           build->lighting.program.pipeline;
+}
+
+enum turner_result turner_reload_preview(struct turner_reload *reload, struct turner_image *image,
+                                         const struct turner_scene *scene)
+{
+    struct turner_rebuild *build = reload->build;
+    build->lighting_shown = true;
+    return turner_preview_light(&reload->preview, image, reload->renderer, &build->lighting,
+                                scene);
+}
+
+/* ---- its beginning and end ---- */
 
 enum turner_result turner_reload_create(struct turner_reload **out,
                                         struct turner_renderer *renderer,
@@ -397,20 +366,19 @@ enum turner_result turner_reload_create(struct turner_reload **out,
                                         struct timespec since)
 {
     struct turner_reload *reload = turner_calloc(1, sizeof *reload);
-    struct turner_shader_source source, post_source;
+    struct turner_sources sources;
     *out = reload;
     reload->renderer = renderer;
     copy_options(reload, options);
-    copy_scene(reload, scene);
+    reload->scene = copy_of(scene);
     /* what has changed since then is dirty, and seen at the first poll */
-    enum turner_result result = read_sources(reload, &source, &post_source, since);
-    if (result == TURNER_OK && turner_source_hash(&source) == renderer->source &&
-        turner_source_hash(&post_source) == renderer->post.source)
-        reload->wanted = reload->current = hash_of(reload, &source, &post_source);
+    enum turner_result result = read_sources(reload, &sources, since);
+    if (result == TURNER_OK && turner_source_hash(&sources.picture) == renderer->source &&
+        turner_source_hash(&sources.post) == renderer->post.source)
+        reload->wanted = reload->current = hash_of(reload, &sources);
     else if (result == TURNER_OK)
         look(reload); /* it is so already */
-    turner_shader_source_destroy(&source);
-    turner_shader_source_destroy(&post_source);
+    turner_sources_destroy(&sources);
     if (result != TURNER_OK) {
         turner_reload_destroy(reload);
         *out = NULL;
@@ -422,7 +390,10 @@ void turner_reload_destroy(struct turner_reload *reload)
 {
     if (!reload)
         return;
-    build_destroy(reload->build, reload->renderer->gpu);
+    turner_rebuild_destroy(reload->stale);
+    turner_rebuild_destroy(reload->build);
+    turner_preview_destroy(reload->renderer->gpu, &reload->preview);
+    turner_lighting_destroy(reload->renderer->gpu, &reload->lighting);
     turner_watch_clear(&reload->watch);
     turner_scene_destroy(reload->scene);
     for (size_t i = 0; i < reload->options.shader_dir_count; i++)

@@ -7,14 +7,14 @@
  *     else if (turner_reload_state(reload) == TURNER_RELOAD_BROKEN)
  *         show turner_reload_message(reload)               over the picture as it is
  *
- * Complete means compiled, valid (spirv-val), reflected, its pipeline made. (A driver may still
- * translate it at its first dispatch.) What is READY or BROKEN is so of the files as they were at
+ * Complete means compiled, valid (spirv-val), reflected, its pipeline made, and translated where the
+ * driver does that at the first dispatch only (gpu/translate.h). What is READY or BROKEN is so of the files as they were at
  * the last poll, never of older ones. */
 #ifndef TURNER_RENDER_RELOAD_H
 #define TURNER_RENDER_RELOAD_H
 
 #include "base/watch.h"
-#include "render/renderer.h"
+#include "render/preview.h"
 
 enum turner_reload_state {
     TURNER_RELOAD_CURRENT,  /* the renderer draws what the files say */
@@ -56,6 +56,25 @@ double turner_reload_seconds(const struct turner_reload *reload);
  * After a failure (TURNER_DEVICE: memory) the renderer is as it was and the state BROKEN. */
 enum turner_result turner_reload_swap(struct turner_reload *reload, struct turner_kernel *kernel,
                                       const struct turner_scene *scene);
+
+/* Asks for previews (render/preview.h) of what is BUILDING, or for no more of them. */
+void turner_reload_want_previews(struct turner_reload *reload, bool wanted);
+
+/* When the picture of `scene` is finished and nothing is to be done, once in a while: has the kernels
+ * for previews made, in the thread, and then remembers what is visible in it. Does nothing without
+ * turner_reload_want_previews. TURNER_INTERRUPTED when options->progress says so. */
+enum turner_result turner_reload_rest(struct turner_reload *reload,
+                                      const struct turner_scene *scene,
+                                      const struct turner_render_options *options);
+
+/* Another picture is drawn: what is remembered is not of that. */
+void turner_reload_forget(struct turner_reload *reload);
+
+/* Whether there is a new one of what is BUILDING, before that is READY. Then the other changes
+ * `image`, the finished picture (as it was before the hook `post`), into it. */
+bool turner_reload_has_preview(const struct turner_reload *reload);
+enum turner_result turner_reload_preview(struct turner_reload *reload, struct turner_image *image,
+                                         const struct turner_scene *scene);
 
 /* The scene's values of parameters, its materials' names, or its folder of shaders are other ones:
  * live parameters take them at once (not while something is traced), a const one makes a new kernel.

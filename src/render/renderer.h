@@ -77,6 +77,8 @@ struct turner_renderer {
     struct turner_program program;
     struct turner_param_block params;
     struct turner_post post;
+    struct turner_image *before_post; /* NULL, or gets each picture, of its size, as it is before the
+                                         hook `post`, where that is replaced */
     struct turner_buffer pixels;    /* of one tile, or results of one list */
     struct turner_buffer positions; /* of one list; adaptive pictures only */
     struct turner_buffer counters;

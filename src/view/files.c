@@ -82,6 +82,8 @@ void turner_painter_watch(struct turner_painter *painter)
     if (turner_reload_create(&painter->reload, &painter->renderer, &painter->scene,
                              &painter->options.render, painter->since) != TURNER_OK)
         painter->reload = NULL; /* what is shown stays as it is */
+    else if (!painter->options.turn)
+        turner_reload_want_previews(painter->reload, true);
 }
 
 /* A number for all that a renderer has to be made anew for: what is left when materials, lights,

@@ -9,7 +9,8 @@
 
 #include "base/memory.h"
 
-#define POLL_SECONDS 0.1  /* files are looked at that often */
+#define POLL_SECONDS 0.05   /* files are looked at that often, */
+#define MAKING_SECONDS 0.01 /* and what is made of them */
 #define REST_SECONDS 0.15 /* without another wish until a moving picture is taken to be at rest */
 
 /* ---- from the window's thread ---- */
@@ -349,7 +350,10 @@ static enum turner_result work(struct turner_painter *painter)
     bool fresh, redraw;
     for (;;) {
         bool rest = at.stage == TURNER_STAGE_DONE;
-        double seconds = rest                                                         ? POLL_SECONDS
+        bool making = painter->reload &&
+                      turner_reload_state(painter->reload) == TURNER_RELOAD_BUILDING;
+        double seconds = rest && making                                               ? MAKING_SECONDS
+                         : rest                                                       ? POLL_SECONDS
                          : at.stage == TURNER_STAGE_SINGLE && at.wish.moving && !at.waited
                              ? REST_SECONDS
                              : 0;
@@ -368,6 +372,8 @@ static enum turner_result work(struct turner_painter *painter)
         }
         if (at.stage == TURNER_STAGE_DONE) {
             turner_painter_watch(painter);
+            if (painter->ready)
+                TURNER_TRY(turner_painter_rest(painter, &at.wish));
             if (painter->ready)
                 write_shot(painter);
         }

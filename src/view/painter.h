@@ -66,6 +66,7 @@ struct turner_sight {
     bool compared;    /* DIFFERENCE, or it was to be measured: these are known, of a small picture */
     struct turner_comparison comparison;
     double compared_seconds, reference_seconds; /* that the two took */
+    bool preview;     /* of hooks that were saved: what is lit directly is new */
     bool hooked;      /* shaders that the reference knows nothing of: it is not compared */
     float *linear;    /* of the full picture, RGB and one unused, where there are two painters; */
     size_t linear_room; /* or nothing, 0 */
@@ -74,6 +75,7 @@ struct turner_sight {
         unsigned built;   /* renderers that were made, */
         unsigned painted; /* times that one got other materials and lights, */
         unsigned moved;   /* and other places for its instances */
+        unsigned previewed; /* saved hooks that were seen before their kernel was there */
     } changes;
     unsigned count; /* of pictures before it that were not parts of one */
 };
@@ -154,6 +156,7 @@ struct turner_painter {
     bool blind;                    /* there is no renderer for the wish: a file is broken */
     char file_alert[2048];         /* of the scene's file */
     struct turner_image quick, full, colors; /* the last: layers as colours */
+    struct turner_image plain, soon; /* `full` before the hook `post`; a preview of saved hooks */
     const struct turner_image *last; /* of them, that was shown last */
     struct turner_sight own; /* being filled */
     struct turner_packer packer;
@@ -255,6 +258,14 @@ enum turner_result turner_painter_compare(struct turner_painter *painter,
                                           const struct turner_wish *wish,
                                           const struct turner_render_options *options,
                                           struct turner_image *heat);
+/* soon.c: what is to be done for previews of saved hooks while the finished picture rests. */
+enum turner_result turner_painter_rest(struct turner_painter *painter,
+                                       const struct turner_wish *wish);
+/* stages.c: shows an image. */
+void turner_painter_publish(struct turner_painter *painter, const struct turner_image *image,
+                            const struct turner_settings *settings, enum turner_stage stage,
+                            double share);
+enum turner_result turner_painter_resize(struct turner_image *image, int width, int height);
 /* stages.c: compares the finished picture if it is to be measured, and shows it once more; puts it
  * off when there is a wish or the other painter wants its turn. */
 enum turner_result turner_painter_measure(struct turner_painter *painter,

@@ -61,7 +61,7 @@ static void show_figures(const struct turner_session *session, const struct turn
     row(ui, "resolution", "%dx%d of %dx%d", sight->width, sight->height,
         session->wish.settings.width, session->wish.settings.height);
     row(ui, "depth", "%d", sight->settings.depth);
-    ui->row("state", stages[sight->stage]);
+    ui->row("state", sight->preview ? "saved hooks, direct light" : stages[sight->stage]);
     if (sight->stage != TURNER_STAGE_DONE && sight->share < 1) {
         snprintf(text, sizeof text, "%.0f %%", 100 * sight->share);
         ui->bar((float)sight->share, text);

@@ -29,6 +29,8 @@ void turner_painter_clear(struct turner_painter *painter)
     turner_image_destroy(&painter->quick);
     turner_image_destroy(&painter->full);
     turner_image_destroy(&painter->colors);
+    turner_image_destroy(&painter->plain);
+    turner_image_destroy(&painter->soon);
     free(painter->materials);
     free(painter->lights);
     painter->materials = NULL;
@@ -211,8 +213,9 @@ static void keep_linear(struct turner_painter *painter, const struct turner_imag
     memcpy(own->linear, image->rgba, floats * sizeof *own->linear);
 }
 
-static void publish(struct turner_painter *painter, const struct turner_image *image,
-                    const struct turner_settings *settings, enum turner_stage stage, double share)
+void turner_painter_publish(struct turner_painter *painter, const struct turner_image *image,
+                            const struct turner_settings *settings, enum turner_stage stage,
+                            double share)
 {
     pack(painter, image);
     struct turner_sight *own = &painter->own, old;
@@ -263,11 +266,11 @@ static bool progress(double share, void *user)
             !(drawing->gives_way && turner_turn_wanted(painter->options.turn));
     if (go_on && share < 1 && drawing->image && now - painter->shown > PART_SECONDS &&
         now - painter->started > PART_FIRST)
-        publish(painter, drawing->image, drawing->settings, drawing->stage, share);
+        turner_painter_publish(painter, drawing->image, drawing->settings, drawing->stage, share);
     return go_on;
 }
 
-static enum turner_result resize(struct turner_image *image, int width, int height)
+enum turner_result turner_painter_resize(struct turner_image *image, int width, int height)
 {
     if (image->width == width && image->height == height)
         return TURNER_OK;
@@ -373,7 +376,7 @@ static enum turner_result draw_seen(struct turner_painter *painter,
     if (error && scene->settings.error == 0)
         turner_contrast_estimate(error, image, scene->settings.aa_threshold > 0
                                                    ? TURNER_CELL_SAMPLES : scene->settings.spp);
-    TURNER_TRY_DONE(resize(&painter->colors, scene->settings.width, scene->settings.height));
+    TURNER_TRY_DONE(turner_painter_resize(&painter->colors, scene->settings.width, scene->settings.height));
     turner_false_color(&painter->colors, painter->own.legend, wish->seen, &layers, image);
     if (wish->seen == TURNER_SEEN_DIFFERENCE &&
         turner_painter_next(wish, painter->own.stage) == TURNER_STAGE_DONE)
@@ -394,7 +397,7 @@ enum turner_result turner_painter_draw(struct turner_painter *painter,
                  wish->seen != TURNER_SEEN_DIFFERENCE;
     struct turner_image *image =
         stage == TURNER_STAGE_QUICK && !whole ? &painter->quick : &painter->full;
-    TURNER_TRY(resize(image, settings.width, settings.height));
+    TURNER_TRY(turner_painter_resize(image, settings.width, settings.height));
     if (stage == TURNER_STAGE_SINGLE && painter->quick.width)
         enlarge(image, &painter->quick);
 
@@ -409,6 +412,14 @@ enum turner_result turner_painter_draw(struct turner_painter *painter,
     painter->own.quick = stage == TURNER_STAGE_QUICK;
     painter->started = painter->shown = turner_seconds();
     TURNER_TRY(turner_renderer_look(&painter->renderer, &scene));
+    painter->renderer.before_post = NULL;
+    if (image == &painter->full && painter->renderer.post.wanted) {
+        TURNER_TRY(turner_painter_resize(&painter->plain, settings.width, settings.height));
+        painter->renderer.before_post = &painter->plain;
+    }
+    if (painter->reload)
+        turner_reload_forget(painter->reload);
+    painter->own.preview = false;
     painter->own.seen = wish->seen;
     painter->own.legend[0] = 0;
     painter->own.compared = false;
@@ -424,7 +435,7 @@ enum turner_result turner_painter_draw(struct turner_painter *painter,
     }
     bool last = whole || turner_painter_next(wish, stage) == TURNER_STAGE_DONE;
     painter->count++;
-    publish(painter, image, &settings, last ? TURNER_STAGE_DONE : stage, 1);
+    turner_painter_publish(painter, image, &settings, last ? TURNER_STAGE_DONE : stage, 1);
     if (stage == TURNER_STAGE_QUICK && wish->interval > 0)
         turner_pace_seen(&painter->pace, wish->interval);
     if (stage == TURNER_STAGE_QUICK)
@@ -451,6 +462,6 @@ enum turner_result turner_painter_measure(struct turner_painter *painter,
         return TURNER_OK; /* later */
     TURNER_TRY(result);
     painter->started = turner_seconds() - seconds; /* it is the same picture */
-    publish(painter, painter->last, &settings, TURNER_STAGE_DONE, 1);
+    turner_painter_publish(painter, painter->last, &settings, TURNER_STAGE_DONE, 1);
     return TURNER_OK;
 }

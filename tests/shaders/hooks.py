@@ -167,14 +167,17 @@ def free():
     """Hooks as they come cost nothing: without them the optimised kernel has as many bytes, and draws
     the same."""
     import json
-    text = (SOURCE / "shaders/whitted.glsl").read_text()
-    for old, new in (("user_surface(met.material, met.surface.ns, met.surface);", ""),
-                     ("user_brdf(", "local_illumination("), ("user_background(", "background("),
-                     ("user_light(light_array(scene.lights).at[index], index,",
-                      "light_arrival(light_array(scene.lights).at[index],")):
-        assert text.count(old) == 1, f"whitted.glsl has changed: {old}"
-        text = text.replace(old, new)
-    write("without/whitted.glsl", text)
+    for file, parts in (
+            ("whitted.glsl", (("user_background(", "background("),)),
+            ("meeting.glsl", (("user_surface(met.material, met.surface.ns, met.surface);", ""),
+                              ("user_brdf(", "local_illumination("),
+                              ("user_light(light_array(scene.lights).at[index], index,",
+                               "light_arrival(light_array(scene.lights).at[index],")))):
+        text = (SOURCE / "shaders" / file).read_text()
+        for old, new in parts:
+            assert text.count(old) == 1, f"{file} has changed: {old}"
+            text = text.replace(old, new)
+        write(f"without/{file}", text)
     for scene in ("whitted1980", "prism", "lights"):
         found = json.loads(turner("compare-shaders", SOURCE / f"scenes/{scene}.json", "without", "-",
                                   "--size", "64x48", "--runs", "1", "--no-reference", "--json",

@@ -16,7 +16,7 @@ turner_shader_test(check check.py templates examples errors recursion scenes)
 set_tests_properties(shaders_check PROPERTIES LABELS "")
 turner_shader_test(params params.py values constants metadata everywhere listed)
 
-foreach(program IN ITEMS test_reload reload_seconds)
+foreach(program IN ITEMS test_reload test_preview reload_seconds)
     add_executable(${program} ${CMAKE_CURRENT_LIST_DIR}/${program}.c
         ${CMAKE_CURRENT_LIST_DIR}/reload_bench.c)
     target_link_libraries(${program} PRIVATE turner_flags PkgConfig::CMOCKA ${turner_libraries})
@@ -28,6 +28,9 @@ foreach(program IN ITEMS test_reload reload_seconds)
 endforeach()
 add_test(NAME shaders_reload COMMAND test_reload)
 set_tests_properties(shaders_reload PROPERTIES LABELS device SKIP_RETURN_CODE 77 TIMEOUT 300)
+add_test(NAME shaders_preview COMMAND test_preview)
+set_tests_properties(shaders_preview PROPERTIES LABELS device SKIP_RETURN_CODE 77 TIMEOUT 300
+    ENVIRONMENT "MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa-cache/shaders_preview")
 turner_shader_test(watch watch.py shaders scene hard)
 turner_shader_test(compare compare.py differences errors)
 turner_shader_test(examples examples.py marble blinn toon listed)
