@@ -25,10 +25,11 @@ static enum turner_result create_program(struct turner_program *program, struct 
     TURNER_TRY(no_cache
                    ? turner_spirv_reduce(&special, &kernel->spirv, constants, count)
                    : turner_spirv_reduce_cached(&special, NULL, &kernel->spirv, constants, count));
-    if (bvh_depth > 0 && !no_cache) /* the large one */
+    enum turner_result result = turner_spirv_validate(&special);
+    if (result == TURNER_OK && bvh_depth > 0) /* the large one */
         turner_gpu_translate(gpu, &special);
-    enum turner_result result =
-        turner_program_create(program, gpu, &special, NULL, 0, VK_NULL_HANDLE);
+    if (result == TURNER_OK)
+        result = turner_program_create(program, gpu, &special, NULL, 0, VK_NULL_HANDLE);
     turner_spirv_destroy(&special);
     return result;
 }

@@ -456,6 +456,24 @@ def edits(screen):
 
 
 @test
+def soon(screen):
+    """A saved hook is seen before its kernel is there; the picture follows."""
+    hook = pathlib.Path("shaders/user/background.glsl")
+    hook.parent.mkdir(parents=True)
+    text = "vec3 user_background(vec3 direction)\n{\n    return vec3(%s);\n}\n"
+    hook.write_text(text % "0.9, 0.5, 0.2")
+    view = View(screen, "scene.json", "-q", "--stats", "stats.json").find()
+    for color in ("0.2, 0.7, 0.3", "0.3, 0.2, 0.8"):
+        view.wait_for_picture(*ppm_pixels(render("scene.json", "wanted.ppm")))
+        wait_until("it does not rest", view.rests)
+        hook.write_text(text % color)
+    view.wait_for_picture(*ppm_pixels(render("scene.json", "wanted.ppm")))
+    view.quit()
+    changes = json.loads(pathlib.Path("stats.json").read_text())["changes"]
+    assert changes["previewed"] == 2 and changes["built"] == 1, changes
+
+
+@test
 def rays(screen):
     """Ctrl+click lists what turner explain lists; a picture that moves takes no more memory."""
     view = opened(screen)
