@@ -7,10 +7,18 @@ execute_process(COMMAND ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 TURNER
                 OUTPUT_VARIABLE view_tests OUTPUT_STRIP_TRAILING_WHITESPACE
                 COMMAND_ERROR_IS_FATAL ANY)
 string(REPLACE "\n" ";" view_tests "${view_tests}")
+
+# Loaded into the command, it loses the window's surface.
+add_library(turner_lose_surface MODULE ${CMAKE_CURRENT_LIST_DIR}/lose_surface.c)
+target_compile_options(turner_lose_surface PRIVATE -Wall -Wextra)
+target_compile_definitions(turner_lose_surface PRIVATE _GNU_SOURCE)
+target_link_libraries(turner_lose_surface PRIVATE Vulkan::Headers ${CMAKE_DL_LIBS})
+set_target_properties(turner_lose_surface PROPERTIES C_VISIBILITY_PRESET default)
+
 foreach(name IN LISTS view_tests)
     add_test(NAME view_${name} COMMAND Python3::Interpreter ${view_script} ${name})
     set_tests_properties(view_${name} PROPERTIES SKIP_RETURN_CODE 77 LABELS device TIMEOUT 600
-        ENVIRONMENT "TURNER=$<TARGET_FILE:turner>;PYTHONDONTWRITEBYTECODE=1")
+        ENVIRONMENT "TURNER=$<TARGET_FILE:turner>;TURNER_LOSE_LIBRARY=$<TARGET_FILE:turner_lose_surface>;TURNER_SANITIZED=${TURNER_SANITIZE};PYTHONDONTWRITEBYTECODE=1")
 endforeach()
 
 # What needs no window.

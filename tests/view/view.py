@@ -17,7 +17,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
 import exr  # noqa: E402
-from screen import DEVICE, INTERRUPTED, TURNER, USAGE, Screen, Skip, View, check_machine
+from screen import DEVICE, INTERRUPTED, OK, TURNER, USAGE, Screen, Skip, View, check_machine
 from screen import ppm_pixels, render, wait_until
 
 # A mirror, glass, a checkered floor: something in every pixel that a wrong camera would move.
@@ -127,6 +127,25 @@ def resize(screen):
     view.wait_for_picture(*wanted)
     view.focus()
     view.quit()
+
+
+@test
+def lost(screen):
+    """A surface that is lost, as when the display begins anew, is made anew; the picture stays."""
+    if os.environ["TURNER_SANITIZED"] == "ON":
+        raise Skip("the sanitizer wants to be the first library")
+    wanted = ppm_pixels(render("scene.json", "wanted.ppm"))
+    for call in ("acquire", "present"):
+        view = View(screen, "scene.json", "-q", environment={
+            "LD_PRELOAD": os.environ["TURNER_LOSE_LIBRARY"], "TURNER_LOSE": call}).find()
+        for _ in range(12):  # frames
+            view.key("Tab")
+            time.sleep(0.05)
+        view.wait_for_picture(*wanted)
+        view.key("q")
+        said = view.process.communicate(timeout=60)[1]
+        assert view.process.returncode == OK, said
+        assert said.count("lost\n") >= 2 and said.replace("lost\n", "") == "", said
 
 
 def near(a, b, tolerance=2e-5):
