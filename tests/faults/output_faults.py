@@ -13,7 +13,7 @@ from harness import (BAD_INPUT, OK, OUTPUT, SANITIZED, TURNER, USAGE, Running, S
 
 OLD = b"an old picture"
 REFERENCE = ("render", "scene.json", "--device", "reference")  # needs no Vulkan
-LONG = ("--size", "2048x2048", "--spp", "1024")  # for hours, in many small steps
+LONG = ("--size", "64x65536", "--spp", "1024")  # for hours, in many small steps
 
 
 # ---- refused before anything is drawn ----

@@ -12,8 +12,10 @@ function(turner_shader_test name script)
 endfunction()
 turner_shader_test(hooks hooks.py
     plain brdf surface background light post folders reference everything free)
-turner_shader_test(check check.py templates examples errors recursion scenes)
+turner_shader_test(check check.py errors recursion scenes)
 set_tests_properties(shaders_check PROPERTIES LABELS "")
+turner_shader_test(templates check.py templates examples)
+set_tests_properties(shaders_templates PROPERTIES LABELS once)
 turner_shader_test(params params.py values constants metadata everywhere listed)
 
 foreach(program IN ITEMS test_reload test_preview reload_seconds)
