@@ -399,9 +399,9 @@ enum turner_result turner_cmd_view(int argc, char **argv)
 enum turner_result turner_cmd_view(int argc, char **argv)
 {
     (void)argc, (void)argv;
-    return turner_fail(TURNER_DEVICE, "this turner was built without a window: that takes GLFW "
-                                      "(libglfw3-dev) and Dear ImGui (libimgui-dev); turner render "
-                                      "draws without one");
+    return turner_fail(TURNER_DEVICE, "this turner was built without a window: install GLFW "
+                                      "(libglfw3-dev) and Dear ImGui (libimgui-dev) and build it "
+                                      "with TURNER_VIEW on; turner render draws without one");
 }
 
 #endif

@@ -14,7 +14,11 @@ static const struct {
     enum turner_result (*run)(int argc, char **argv);
 } commands[] = {
     {"render", "draw a scene into a picture", turner_cmd_render},
+#ifdef TURNER_VIEW
     {"view", "show a scene in a window, and move through it", turner_cmd_view},
+#else
+    {"view", "(left out of this build) show a scene in a window", turner_cmd_view},
+#endif
     {"compare", "say how much two pictures differ", turner_cmd_compare},
     {"compare-shaders", "say how two folders of shaders differ in speed and picture",
      turner_cmd_compare_shaders},

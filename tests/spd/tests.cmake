@@ -9,13 +9,15 @@ set_target_properties(test_spd PROPERTIES LINKER_LANGUAGE CXX)
 # The counts belong to full-size pictures, which take minutes under the sanitizers: there one scene
 # and the reference stand for all.
 set(spd_scenes mount)
+set(spd_grids published)
 set(spd_ways reference)
 if(NOT TURNER_SANITIZE)
     list(APPEND spd_scenes balls gears teapot)
+    list(APPEND spd_grids centres)
     list(APPEND spd_ways bvh ray_query f64)
 endif()
 foreach(scene IN LISTS spd_scenes)
-    foreach(grid IN ITEMS centres published)
+    foreach(grid IN LISTS spd_grids)
         foreach(way IN LISTS spd_ways)
             if(grid STREQUAL published AND way MATCHES "ray_query|f64")
                 continue() # the same hits as bvh, or finer ones: centres show it

@@ -103,6 +103,10 @@ float scale_of(GLFWwindow *glfw)
 
 bool upload_fonts(struct turner_window *window)
 {
+#if IMGUI_VERSION_NUM >= 19000 // it has commands of its own
+    TRY_VK(window, ImGui_ImplVulkan_CreateFontsTexture() ? VK_SUCCESS : VK_ERROR_UNKNOWN);
+    return true;
+#else
     VkCommandBufferBeginInfo begin = {};
     begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -117,6 +121,7 @@ bool upload_fonts(struct turner_window *window)
     TRY_VK(window, vkDeviceWaitIdle(window->device));
     ImGui_ImplVulkan_DestroyFontUploadObjects();
     return true;
+#endif
 }
 } // namespace
 
