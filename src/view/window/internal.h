@@ -107,6 +107,7 @@ bool turner_window_ui_wants_keys(void);
 void turner_window_ui_key(GLFWwindow *glfw, int key, int scancode, int action, int mods);
 void turner_window_ui_char(GLFWwindow *glfw, unsigned c);
 void turner_window_ui_button(GLFWwindow *glfw, int button, int action, int mods);
+void turner_window_ui_move(GLFWwindow *glfw, double x, double y);
 void turner_window_ui_scroll(GLFWwindow *glfw, double x, double y);
 void turner_window_ui_focus(GLFWwindow *glfw, int focused);
 void turner_window_ui_enter(GLFWwindow *glfw, int entered);

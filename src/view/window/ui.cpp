@@ -218,6 +218,16 @@ void turner_window_ui_button(GLFWwindow *glfw, int button, int action, int mods)
         ImGui_ImplGlfw_MouseButtonCallback(glfw, button, action, mods);
 }
 
+void turner_window_ui_move(GLFWwindow *glfw, double x, double y)
+{
+#if IMGUI_VERSION_NUM >= 18700 // before, it asked for the place by itself
+    if (ImGui::GetCurrentContext())
+        ImGui_ImplGlfw_CursorPosCallback(glfw, x, y);
+#else
+    (void)glfw, (void)x, (void)y;
+#endif
+}
+
 void turner_window_ui_scroll(GLFWwindow *glfw, double x, double y)
 {
     if (ImGui::GetCurrentContext())

@@ -81,6 +81,7 @@ static void on_button(GLFWwindow *glfw, int button, int action, int mods)
 static void on_move(GLFWwindow *glfw, double x, double y)
 {
     struct turner_window *window = glfwGetWindowUserPointer(glfw);
+    turner_window_ui_move(glfw, x, y);
     to_pixels(window, &x, &y);
     push(window, (struct turner_window_event){.kind = TURNER_WINDOW_MOVE, .x = x, .y = y});
 }
@@ -164,8 +165,19 @@ static void fit(int *width, int *height)
     *height = (int)(*height * shrink + 0.5);
 }
 
+/* GLFW tries Wayland first, whose library complains where there is none. */
+static void choose_platform(void)
+{
+#ifdef GLFW_PLATFORM
+    const char *wayland = getenv("WAYLAND_DISPLAY"), *x11 = getenv("DISPLAY");
+    if ((!wayland || !*wayland) && x11 && *x11 && glfwPlatformSupported(GLFW_PLATFORM_X11))
+        glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
+}
+
 static bool open_window(struct turner_window *window, const struct turner_window_options *options)
 {
+    choose_platform();
     if (!glfwInit()) {
         glfw_reason(window, "no window can be opened");
         return false;
