@@ -145,9 +145,10 @@ static void look(struct turner_reload *reload)
         }
     }
     struct turner_rebuild *build = reload->build;
-    bool stale = build && build->sources.picture.text && build->text != reload->wanted;
+    bool stale = build && build->text != reload->wanted;
     if (reload->state == TURNER_RELOAD_BUILDING && stale && !reload->stale) {
         atomic_store(&build->given_up, true);
+        reload->previews = reload->previews || !build->sources.picture.text; /* later */
         reload->stale = build;
         reload->build = NULL;
     }
@@ -174,7 +175,7 @@ static void harvest(struct turner_reload *reload)
     if (broken) {
         set_message(reload, build->message);
         reload->state = TURNER_RELOAD_BROKEN;
-    } else if (!picture && build->text == reload->current) {
+    } else if (!picture) {
         reload->lighting = build->lighting;
         reload->preview.visibility = build->visibility;
         build->lighting = (struct turner_lighting){0};
