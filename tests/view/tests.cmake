@@ -29,8 +29,8 @@ if(TARGET turner_view)
     foreach(name IN LISTS view_tests)
         add_test(NAME view_${name} COMMAND Python3::Interpreter ${view_script} ${name})
         set_tests_properties(view_${name} PROPERTIES SKIP_RETURN_CODE 77 LABELS device TIMEOUT 600
-            # they wait more than they work: one at a time, from the beginning, beside those that work
-            COST 1000 RESOURCE_LOCK waiting
+            # one at a time, from the beginning, beside tests of other kinds: what they wait for comes
+            COST 1000 RESOURCE_LOCK window
             ENVIRONMENT "TURNER=$<TARGET_FILE:turner>;TURNER_LOSE_LIBRARY=$<TARGET_FILE:turner_lose_surface>;TURNER_SANITIZED=${TURNER_SANITIZE};PYTHONDONTWRITEBYTECODE=1")
     endforeach()
 endif()
