@@ -7,6 +7,7 @@
 #include "render/estimate.h"
 #include "render/follow.h"
 #include "render/layers.h"
+#include "render/overview.h"
 #include "render/surroundings.h"
 #include "render/tally.h"
 
@@ -15,6 +16,7 @@
 #define LEVEL_MAX 12
 #define FIRST_ROUNDS 2            /* of divisions, that every pixel goes through for an error */
 #define FIRST_CELLS 16            /* they lead to */
+#define FIRST_CELLS_BUSY 64       /* that a pixel is divided into where much is around */
 #define FLOAT_BITS 24
 #define SPACINGS_LEAST 16        /* of floats, along the edge of a cell that is divided */
 #define SPLIT_SHARE 0.25f         /* of the most that a cell of the pixel adds */
@@ -30,7 +32,8 @@ struct picture {
     int level_max;    /* of cells that are divided no more: their edges are floats that far */
     float area_least; /* of cells that are divided, where they are jittered */
     double samples; /* sum over pixels */
-    struct turner_scale scale; /* where an error is asked for */
+    struct turner_overview overview; /* where an error is asked for */
+    struct turner_scale scale;       /* the same */
     float *errors;  /* the same, or NULL: the estimate of each pixel */
 };
 
@@ -123,7 +126,10 @@ static float mark_by_error(const struct picture *picture, const struct turner_pa
     float asked = (float)picture->renderer->settings.error;
     float rest = estimate.cut + estimate.methods + estimate.rounding;
     float left = fmaxf(asked - rest, SAMPLING_LEAST * fmaxf(asked, rest));
-    bool first = patch->count < FIRST_CELLS;
+    size_t least = turner_overview_is_busy(&picture->overview, patch->x, patch->y)
+                       ? FIRST_CELLS_BUSY
+                       : FIRST_CELLS;
+    bool first = patch->count < least;
     if (!first && fmaxf(turner_estimate_of_samples(&estimate), estimate.look) <= left)
         return total;
     for (size_t i = 0; i < patch->count; i++)
@@ -302,8 +308,11 @@ static enum turner_result draw(struct picture *picture, const struct turner_rend
 {
     const struct turner_image *image = picture->image;
     int edge = tile_edge(picture->renderer);
-    if (picture->renderer->settings.error > 0)
-        TURNER_TRY(turner_follow_bound(&picture->scale.bound, picture->renderer));
+    if (picture->renderer->settings.error > 0) {
+        TURNER_TRY(turner_overview_create(&picture->overview, picture->renderer));
+        picture->scale.bound =
+            turner_overview_bound(&picture->overview, picture->renderer->glow);
+    }
     double pixels = (double)image->width * image->height, done = 0;
     for (int y = 0; y < image->height; y += edge) {
         for (int x = 0; x < image->width; x += edge) {
@@ -351,6 +360,7 @@ enum turner_result turner_adaptive_draw(struct turner_renderer *renderer,
     statistics->seconds_trace += turner_seconds() - start;
     turner_cells_destroy(&picture.cells);
     turner_lattice_destroy(&picture.lattice);
+    turner_overview_destroy(&picture.overview);
     free(picture.errors);
     return result;
 }

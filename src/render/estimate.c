@@ -1,5 +1,6 @@
 #include "render/estimate.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -8,16 +9,16 @@
 #define EDGE 2.0f        /* of bends that are independent; the root mean square of errors is 0.4 */
 #define LEAST 0.05f      /* of that, where bends shrink though less than in a smooth cell */
 #define SHRINKS 0.35f    /* to that of its parent's bend: a smooth cell's to a quarter */
-#define HALVES 0.48f     /* to about that: a kink's */
+#define HALVES 0.52f     /* to about that: a kink's */
 #define STAYS 0.7f       /* at least that much: an edge's or disorder's */
 #define SAFETY 1.3f      /* what the truth goes beyond all this on one pixel of a thousand */
-#define HIDDEN 0.05f     /* of the bend suspected, that a cell of a quarter pixel may hide */
+#define HIDDEN 0.1f      /* of the bend suspected, that a cell of a quarter pixel may hide */
 #define HIDDEN_LEVEL 2
 #define LOOK 0.6f        /* of the bends in a crowd, that is worth a second look */
-#define POOL 0.5f        /* of the estimates around a pixel, that its own is at least */
-#define POOL_RANK 4      /* of the eight around */
-#define ROUNDING 9e-7f   /* of the radiance */
-#define ROUNDING_PLACE 4e-7f /* of the picture's size, that rounding moves a ray by */
+#define POOL 0.3f        /* of the estimates around a pixel, that its own is at least */
+#define POOL_RANK 2      /* of the eight around */
+#define ROUNDING 6.5e-7f /* of the radiance */
+#define ROUNDING_PLACE 5e-7f /* of the picture's size, that rounding moves a ray by */
 
 float turner_estimate_of_samples(const struct turner_estimate *estimate)
 {
@@ -129,9 +130,7 @@ static float left_of_bend(const struct turner_cell *cell)
     return left;
 }
 
-/* 0 where radiance is smooth in the cell, 1 where bends do not shrink from level to level: an edge or
- * disorder. */
-static float roughness(const struct turner_cell *cell)
+float turner_estimate_roughness(const struct turner_cell *cell)
 {
     if (cell->bend <= SHRINKS * cell->older_bends[0])
         return 0;
@@ -166,7 +165,7 @@ struct turner_estimate turner_estimate_pixel(const struct turner_cells *cells,
         float part = area * cell->bend;
         for (int c = 0; c < 3; c++)
             sum[c] += area * bend[c];
-        float rough = roughness(cell), hidden = hidden_in(cell->level, around);
+        float rough = turner_estimate_roughness(cell), hidden = hidden_in(cell->level, around);
         if (rough > 0) {
             squares += rough * part * rough * part;
         } else {
@@ -182,7 +181,7 @@ struct turner_estimate turner_estimate_pixel(const struct turner_cells *cells,
     e.sampling = SAFETY * (fmaxf(SMOOTH * largest(sum), EDGE * sqrtf(squares)) + REST * rest);
     e.cut = value[3] * scale->bound;
     e.methods = SAFETY * around->methods;
-    e.rounding = ROUNDING * largest(value) + ROUNDING_PLACE * scale->size * place;
+    e.rounding = ROUNDING * largest(value) + ROUNDING_PLACE * scale->size * place + FLT_MIN;
     return e;
 }
 

@@ -24,6 +24,10 @@ float turner_estimate_total(const struct turner_estimate *estimate);
 float turner_estimate_bend(float bend[3], const struct turner_lattice *lattice,
                            const struct turner_cell *cell);
 
+/* From 0 where radiance is smooth in a cell to 1 where bends do not shrink from level to level: an edge
+ * or disorder. Its bends are known. */
+float turner_estimate_roughness(const struct turner_cell *cell);
+
 /* Of a whole picture. */
 struct turner_scale {
     float bound; /* radiance that a ray of weight 1 may bring */

@@ -6,16 +6,14 @@
 
 #include "base/memory.h"
 
-#define CUT_SHARE 1.0     /* of the error, that cut rays may take */
+#define CUT_SHARE 0.25    /* of the error, that cut rays may take */
 #define CUTOFF_STEP 8
 #define CUTOFF_LEAST 1e-7
-#define GRID 4            /* pixels between samples of the coarse grid */
-#define RAYS_MEAN_MAX 256 /* of a sample of the grid; bubbles in bubbles take 8 */
 
 void turner_follow_settings(struct turner_settings *settings, bool branches)
 {
     settings->depth = branches ? TURNER_MAX_BRANCH_DEPTH : TURNER_MAX_DEPTH;
-    settings->cutoff = fmax(fmin(CUT_SHARE * settings->error, 0.5), CUTOFF_LEAST);
+    settings->cutoff = fmax(fmin(settings->error, 0.5), CUTOFF_LEAST);
     settings->spp = TURNER_ERROR_SAMPLES;
 }
 
@@ -45,50 +43,6 @@ float turner_follow_glow(const struct turner_scene *scene)
     for (size_t i = 0; i < scene->material_count; i++)
         most = fmaxf(most, most_of(scene->materials[i].k_e));
     return most;
-}
-
-static double rays_so_far(const struct turner_renderer *renderer)
-{
-    const struct turner_gpu_counters *counters = renderer->counters.mapped;
-    static const int kinds[] = {TURNER_COUNT_CAMERA, TURNER_COUNT_REFLECTED,
-                                TURNER_COUNT_REFRACTED, TURNER_COUNT_SHADOW};
-    double rays = 0;
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
-        rays += counters->low[kinds[i]] + ldexp(counters->high[kinds[i]], 32);
-    return rays;
-}
-
-enum turner_result turner_follow_bound(float *bound, struct turner_renderer *renderer)
-{
-    const struct turner_settings *settings = &renderer->settings;
-    size_t columns = (size_t)(settings->width + GRID - 1) / GRID;
-    size_t rows = (size_t)(settings->height + GRID - 1) / GRID;
-    float(*positions)[2] = turner_calloc(columns * rows, sizeof *positions);
-    float(*values)[4] = turner_calloc(columns * rows, sizeof *values);
-    double before = rays_so_far(renderer);
-    enum turner_result result;
-    for (size_t i = 0; i < columns * rows; i++) {
-        positions[i][0] = (float)(i % columns * GRID) + 0.5f * GRID;
-        positions[i][1] = (float)(i / columns * GRID) + 0.5f * GRID;
-    }
-    TURNER_TRY_DONE(turner_renderer_trace(renderer, settings->depth, settings->cutoff,
-                                          (const float(*)[2])positions, columns * rows, values));
-    double mean = (rays_so_far(renderer) - before) / (double)(columns * rows);
-    if (mean > RAYS_MEAN_MAX)
-        TURNER_TRY_DONE(turner_fail(
-            TURNER_USAGE, "an error cannot be asked for here: a sample takes %.0f rays on average, "
-            "cut short, before their weights fall to %g; give --spp, --depth and --cutoff instead, "
-            "or materials whose rays lose weight (--method fresnel=exact)", mean,
-            settings->cutoff));
-    *bound = renderer->glow;
-    for (size_t i = 0; i < columns * rows; i++) {
-        for (int c = 0; c < 3; c++)
-            *bound = isfinite(values[i][c]) ? fmaxf(*bound, values[i][c]) : *bound;
-    }
-done:
-    free(positions);
-    free(values);
-    return result;
 }
 
 /* Samples of a lattice that are traced again. */

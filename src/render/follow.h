@@ -13,11 +13,6 @@ void turner_follow_settings(struct turner_settings *settings, bool branches);
 /* The largest radiance of the scene's background and emission. */
 float turner_follow_glow(const struct turner_scene *scene);
 
-/* What a ray of weight 1 may bring: that, or the largest radiance of a coarse grid over the picture.
- * (A ray that is cut may go where the camera does not look.) TURNER_USAGE where rays multiply so, and
- * lose so little, that no error can be asked for. */
-enum turner_result turner_follow_bound(float *bound, struct turner_renderer *renderer);
-
 /* Traces what is new in the lattice. Where the settings ask for an error, samples whose cut weight
  * times `bound` is a good part of it are traced again with lower cutoffs; `cutoff_least` gets the
  * lowest. */

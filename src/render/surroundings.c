@@ -89,11 +89,15 @@ enum turner_result turner_surroundings_first(struct turner_cells *cells,
 
 /* ---- from cells of a quarter pixel ---- */
 
+/* Of edges and disorder: where radiance is smooth, nothing is suspected. */
 static float largest_bend(const struct turner_cells *cells, const struct turner_patch *patch)
 {
     float most = 0, bend[3];
-    for (size_t i = patch->first; i < patch->first + patch->count; i++)
-        most = fmaxf(most, turner_estimate_bend(bend, cells->lattice, &cells->cells[i]));
+    for (size_t i = patch->first; i < patch->first + patch->count; i++) {
+        struct turner_cell cell = cells->cells[i];
+        cell.bend = turner_estimate_bend(bend, cells->lattice, &cell);
+        most = fmaxf(most, turner_estimate_roughness(&cell) * cell.bend);
+    }
     return most;
 }
 
