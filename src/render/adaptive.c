@@ -312,6 +312,7 @@ static enum turner_result draw(struct picture *picture, const struct turner_rend
         TURNER_TRY(turner_overview_create(&picture->overview, picture->renderer));
         picture->scale.bound =
             turner_overview_bound(&picture->overview, picture->renderer->glow);
+        picture->scale.blend = picture->renderer->blend;
     }
     double pixels = (double)image->width * image->height, done = 0;
     for (int y = 0; y < image->height; y += edge) {

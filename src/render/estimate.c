@@ -18,6 +18,7 @@
 #define POOL 0.3f        /* of the estimates around a pixel, that its own is at least */
 #define POOL_RANK 2      /* of the eight around */
 #define ROUNDING 6.5e-7f /* of the radiance */
+#define ROUNDING_BLEND 3e-8f /* of what a gradient spans: half the spacing of floats below 1 */
 #define ROUNDING_PLACE 5e-7f /* of the picture's size, that rounding moves a ray by */
 
 float turner_estimate_of_samples(const struct turner_estimate *estimate)
@@ -181,7 +182,8 @@ struct turner_estimate turner_estimate_pixel(const struct turner_cells *cells,
     e.sampling = SAFETY * (fmaxf(SMOOTH * largest(sum), EDGE * sqrtf(squares)) + REST * rest);
     e.cut = value[3] * scale->bound;
     e.methods = SAFETY * around->methods;
-    e.rounding = ROUNDING * largest(value) + ROUNDING_PLACE * scale->size * place + FLT_MIN;
+    e.rounding = ROUNDING * largest(value) + ROUNDING_BLEND * scale->blend +
+                 ROUNDING_PLACE * scale->size * place + FLT_MIN;
     return e;
 }
 

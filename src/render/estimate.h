@@ -32,6 +32,7 @@ float turner_estimate_roughness(const struct turner_cell *cell);
 struct turner_scale {
     float bound; /* radiance that a ray of weight 1 may bring */
     float size;  /* larger edge in pixels */
+    float blend; /* largest difference between the ends of a gradient that it may show */
 };
 
 /* Sets the measure of each cell of the patch to its share and estimates the pixel. */

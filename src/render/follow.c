@@ -45,6 +45,15 @@ float turner_follow_glow(const struct turner_scene *scene)
     return most;
 }
 
+float turner_follow_blend(const struct turner_scene *scene)
+{
+    const struct turner_background *background = &scene->background;
+    if (background->kind != TURNER_BACKGROUND_GRADIENT)
+        return 0;
+    struct turner_vec3 a = background->color, b = background->top;
+    return (float)fmax(fabs(a.x - b.x), fmax(fabs(a.y - b.y), fabs(a.z - b.z)));
+}
+
 /* Samples of a lattice that are traced again. */
 struct selection {
     size_t *indices, count;

@@ -13,6 +13,9 @@ void turner_follow_settings(struct turner_settings *settings, bool branches);
 /* The largest radiance of the scene's background and emission. */
 float turner_follow_glow(const struct turner_scene *scene);
 
+/* The largest difference in a channel between the ends of its background's gradient, or 0. */
+float turner_follow_blend(const struct turner_scene *scene);
+
 /* Traces what is new in the lattice. Where the settings ask for an error, samples whose cut weight
  * times `bound` is a good part of it are traced again with lower cutoffs; `cutoff_least` gets the
  * lowest. */

@@ -298,6 +298,7 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
         renderer->needs = renderer->needs_of_surface;
     renderer->settings = deep.settings;
     renderer->glow = turner_follow_glow(scene);
+    renderer->blend = turner_follow_blend(scene);
     renderer->tile = options->tile;
     enum turner_result result = create(renderer, kernel, &deep, options, statistics);
     if (result == TURNER_OK && scene->settings.error > 0)
@@ -334,6 +335,7 @@ enum turner_result turner_renderer_look(struct turner_renderer *renderer,
     assert(!turner_adaptive_wanted(&deep.settings) || renderer->positions.buffer);
     renderer->settings = deep.settings;
     renderer->glow = turner_follow_glow(scene);
+    renderer->blend = turner_follow_blend(scene);
     TURNER_TRY(turner_device_scene_look(&renderer->scene, renderer->gpu, &deep, &renderer->flat,
                                         &renderer->needs, renderer->ray_query));
     return renderer->accurate ? turner_renderer_look(renderer->accurate, scene) : TURNER_OK;

@@ -87,6 +87,7 @@ struct turner_renderer {
     struct turner_renderer *accurate; /* an error is asked for and the methods are approximations:
                                          the same scene by those that are not; else NULL */
     float glow;  /* the largest radiance that shows without a light: background and emission */
+    float blend; /* the largest difference in a channel between the ends of a gradient behind it all */
     int tile;    /* fixed edge in pixels, or 0: follows the time a tile takes, */
     int edge;    /* and is this at present, 0 before the first */
     double piece; /* seconds that what is submitted at once is to take; 0: as long as suits one who
