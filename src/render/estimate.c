@@ -17,9 +17,9 @@
 #define LOOK 0.6f        /* of the bends in a crowd, that is worth a second look */
 #define POOL 0.3f        /* of the estimates around a pixel, that its own is at least */
 #define POOL_RANK 2      /* of the eight around */
-#define ROUNDING 6.5e-7f /* of the radiance */
+#define ROUNDING 5.5e-7f /* of the radiance */
 #define ROUNDING_BLEND 3e-8f /* of what a gradient spans: half the spacing of floats below 1 */
-#define ROUNDING_PLACE 5e-7f /* of the picture's size, that rounding moves a ray by */
+#define ROUNDING_PLACE 4e-7f /* of the picture's size, that rounding moves a ray by */
 
 float turner_estimate_of_samples(const struct turner_estimate *estimate)
 {
