@@ -145,10 +145,10 @@ static void look(struct turner_reload *reload)
         }
     }
     struct turner_rebuild *build = reload->build;
-    bool stale = build && build->text != reload->wanted;
+    bool stale = build && build->sources.picture.text && build->text != reload->wanted;
     if (reload->state == TURNER_RELOAD_BUILDING && stale && !reload->stale) {
-        atomic_store(&build->given_up, true);
-        reload->previews = reload->previews || !build->sources.picture.text; /* later */
+        atomic_store(&build->given_up, true); /* what previews take is waited for: they would never
+                                                 be, with one save after the other */
         reload->stale = build;
         reload->build = NULL;
     }
