@@ -6,6 +6,8 @@ set(dictionary)
 if(EXISTS ${CORPUS}.dict)
     set(dictionary -dict=${CORPUS}.dict)
 endif()
+# to the sanitizer, what --wrap of lld puts in the place of a variable is that one once more
+set(ENV{ASAN_OPTIONS} "$ENV{ASAN_OPTIONS}:detect_odr_violation=0")
 execute_process(
     COMMAND ${FUZZER} -max_total_time=60 -timeout=10 -rss_limit_mb=2048 -print_final_stats=1
             -verbosity=1 -artifact_prefix=${WORK}/ ${dictionary} ${WORK}/corpus
