@@ -68,6 +68,14 @@ crossing_t media_cross(uint64_t list, uint medium, bool entering)
     return crossing;
 }
 
+// Meeting a surface, which is always a boundary unless it is transmissive.
+crossing_t media_meet(uint64_t list, bool transmissive, uint medium, bool entering)
+{
+    if (NEEDS_ANY(TURNER_NEEDS_MEDIA) && transmissive)
+        return media_cross(list, medium, entering);
+    return crossing_t(list, list, true);
+}
+
 real media_index(uint64_t list)
 {
     uint medium = media_current(list);

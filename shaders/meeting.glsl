@@ -34,23 +34,27 @@ void record_shadow(ray_t ray);
 #define RECORD(call)
 #endif
 
-// What a ray met; a transmissive surface between a medium and itself is none, no boundary.
+// What a ray met.
 struct meeting_t {
     surface_t surface;
     turner_gpu_material material;
     crossing_t crossing; // lists of media on the ray's side and beyond
 };
 
-meeting_t meet(ray_t ray, hit_t hit, uint64_t media)
+meeting_t meet_surface(surface_t surface)
 {
     meeting_t met;
-    met.surface = surface_of(ray, hit);
+    met.surface = surface;
     met.material = material_at(met.surface);
     user_surface(met.material, met.surface.ns, met.surface);
-    met.crossing = crossing_t(media, media, true);
-    if (NEEDS_ANY(TURNER_NEEDS_MEDIA) && met.surface.transmissive)
-        met.crossing = media_cross(media, met.material.medium + 1u,
-                                   dot(ray.direction, met.surface.ng) < 0.0);
+    return met;
+}
+
+meeting_t meet(ray_t ray, hit_t hit, uint64_t media)
+{
+    meeting_t met = meet_surface(surface_of(ray, hit));
+    met.crossing = media_meet(media, met.surface.transmissive, met.material.medium + 1u,
+                              dot(ray.direction, met.surface.ng) < 0.0);
     return met;
 }
 

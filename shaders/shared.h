@@ -343,11 +343,13 @@ TURNER_STRUCT(turner_gpu_dispatch)
  * (visibility.comp, deferred.comp). */
 TURNER_STRUCT(turner_gpu_visible)
 {
-    float t;
-    uint id; /* as above; TURNER_NO_INDEX for the background */
-    uint primitive;
-    uint instance;
-    float coordinates[2];
+    TURNER_VEC3(point); /* world */
+    TURNER_VEC3(ng);    /* unit, as surface_t has them */
+    TURNER_VEC3(ns);
+    TURNER_VEC2(uv);
+    TURNER_VEC3(weight); /* of what its light arrives; 0: one looks straight on, into the same
+                            medium. The background has one, too */
+    uint material;       /* as primitives have it; TURNER_NO_INDEX: the background */
     uint lit; /* bit i: nothing opaque is between it and light i; those from TURNER_LIT_LIGHTS on are
                  not asked, and count as seen */
 };

@@ -17,6 +17,7 @@
 #include "scene.glsl"
 #include "elementary.glsl"
 #include "trace.glsl"
+#include "media.glsl"
 #include "texture.glsl"
 #include "surface.glsl"
 #include "light.glsl"
@@ -29,10 +30,26 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer visible_arra
     turner_gpu_visible at[];
 };
 
+void note(inout turner_gpu_visible visible, surface_t surface, ray_t ray, float t)
+{
+    visible.point = vec3(surface.point);
+    visible.ng = vec3(surface.ng);
+    visible.ns = vec3(surface.ns);
+    visible.uv = vec2(surface.uv);
+    visible.material = surface.material;
+    if (surface.transmissive)
+        visible.material |= TURNER_MATERIAL_TRANSMISSIVE;
+    uint medium = material_array(scene.materials).at[surface.material].medium;
+    crossing_t crossing = media_meet(scene.inside, surface.transmissive, medium + 1u,
+                                     dot(ray.direction, surface.ng) < 0.0);
+    visible.weight = crossing.boundary ? media_transmittance(crossing.before, t) : vec3(0.0);
+}
+
 turner_gpu_visible visible_to(ray_t ray, bool busy)
 {
     turner_gpu_visible visible;
-    visible.id = TURNER_NO_INDEX;
+    visible.weight = media_transmittance(scene.inside, INFINITY);
+    visible.material = TURNER_NO_INDEX;
     visible.lit = 0u;
     surface_t surface;
     uint lights = min(scene.light_count, TURNER_LIT_LIGHTS);
@@ -44,12 +61,7 @@ turner_gpu_visible visible_to(ray_t ray, bool busy)
             visible.lit |= search.blocked ? 0u : 1u << (turn - 1u);
         } else if (search.found) {
             surface = surface_of(ray, search.hit);
-            visible.t = float(search.hit.t);
-            visible.id = search.hit.id;
-            visible.primitive = search.hit.primitive;
-            visible.instance = search.hit.instance;
-            visible.coordinates[0] = float(search.hit.coordinates.x);
-            visible.coordinates[1] = float(search.hit.coordinates.y);
+            note(visible, surface, ray, float(search.hit.t));
         } else {
             busy = false;
         }

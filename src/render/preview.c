@@ -1,5 +1,6 @@
 #include "render/preview.h"
 
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -9,29 +10,23 @@
 #include "../shaders/shared.h"
 
 #define BAND_PIXELS (1 << 15) /* what is submitted at once: some milliseconds */
-#define PIXELS_MAX (1 << 23)  /* of a picture: 28 bytes each */
+#define PIXELS_MAX (1 << 23)  /* of a picture: 64 bytes each */
 
 /* ---- the kernels ---- */
 
-static enum turner_result create_program(struct turner_program *program, struct turner_gpu *gpu,
-                                         const struct turner_kernel *kernel,
-                                         const struct turner_needs *needs, uint32_t bvh_depth,
-                                         const struct turner_scene *scene, bool no_cache)
+/* It is small: what the driver has more to do with what was not reduced takes less than reducing. */
+static enum turner_result create_lighting_program(struct turner_lighting *lighting,
+                                                  struct turner_gpu *gpu,
+                                                  const struct turner_needs *needs,
+                                                  const struct turner_scene *scene)
 {
     struct turner_constant constants[TURNER_KERNEL_CONSTANTS];
     size_t count;
-    struct turner_spirv special;
-    TURNER_TRY(turner_kernel_specialisation(constants, &count, kernel, needs, bvh_depth, scene));
-    TURNER_TRY(no_cache
-                   ? turner_spirv_reduce(&special, &kernel->spirv, constants, count)
-                   : turner_spirv_reduce_cached(&special, NULL, &kernel->spirv, constants, count));
-    enum turner_result result = turner_spirv_validate(&special);
-    if (result == TURNER_OK && bvh_depth > 0) /* the large one */
-        turner_gpu_translate(gpu, &special);
-    if (result == TURNER_OK)
-        result = turner_program_create(program, gpu, &special, NULL, 0, VK_NULL_HANDLE);
-    turner_spirv_destroy(&special);
-    return result;
+    const struct turner_kernel *kernel = &lighting->kernel;
+    TURNER_TRY(turner_kernel_specialisation(constants, &count, kernel, needs, 0, scene));
+    TURNER_TRY(turner_spirv_validate(&kernel->spirv));
+    return turner_program_create(&lighting->program, gpu, &kernel->spirv, constants, count,
+                                 VK_NULL_HANDLE);
 }
 
 enum turner_result turner_lighting_create(struct turner_lighting *lighting, struct turner_gpu *gpu,
@@ -43,8 +38,7 @@ enum turner_result turner_lighting_create(struct turner_lighting *lighting, stru
     *lighting = (struct turner_lighting){0};
     enum turner_result result = turner_kernel_compile(&lighting->kernel, kind, source, no_cache);
     if (result == TURNER_OK)
-        result = create_program(&lighting->program, gpu, &lighting->kernel, needs, 0, scene,
-                                no_cache);
+        result = create_lighting_program(lighting, gpu, needs, scene);
     if (result != TURNER_OK)
         turner_lighting_destroy(gpu, lighting);
     return result;
@@ -57,6 +51,30 @@ void turner_lighting_destroy(struct turner_gpu *gpu, struct turner_lighting *lig
     *lighting = (struct turner_lighting){0};
 }
 
+static enum turner_result create_visibility_program(struct turner_program *program,
+                                                    struct turner_gpu *gpu,
+                                                    const struct turner_kernel *kernel,
+                                                    const struct turner_needs *needs,
+                                                    uint32_t bvh_depth,
+                                                    const struct turner_scene *scene,
+                                                    bool no_cache)
+{
+    struct turner_constant constants[TURNER_KERNEL_CONSTANTS];
+    size_t count;
+    struct turner_spirv special;
+    TURNER_TRY(turner_kernel_specialisation(constants, &count, kernel, needs, bvh_depth, scene));
+    TURNER_TRY(no_cache
+                   ? turner_spirv_reduce(&special, &kernel->spirv, constants, count)
+                   : turner_spirv_reduce_cached(&special, NULL, &kernel->spirv, constants, count));
+    enum turner_result result = turner_spirv_validate(&special);
+    if (result == TURNER_OK) {
+        turner_gpu_translate(gpu, &special);
+        result = turner_program_create(program, gpu, &special, NULL, 0, VK_NULL_HANDLE);
+    }
+    turner_spirv_destroy(&special);
+    return result;
+}
+
 enum turner_result turner_visibility_create(struct turner_program *program, struct turner_gpu *gpu,
                                             struct turner_shader_source *source, unsigned kind,
                                             const struct turner_needs *needs, uint32_t bvh_depth,
@@ -66,7 +84,8 @@ enum turner_result turner_visibility_create(struct turner_program *program, stru
     *program = (struct turner_program){0};
     enum turner_result result = turner_kernel_compile(&kernel, kind, source, no_cache);
     if (result == TURNER_OK)
-        result = create_program(program, gpu, &kernel, needs, bvh_depth, scene, no_cache);
+        result = create_visibility_program(program, gpu, &kernel, needs, bvh_depth, scene,
+                                           no_cache);
     turner_kernel_destroy(&kernel);
     return result;
 }
@@ -100,8 +119,20 @@ static struct turner_gpu_dispatch band_of(const struct turner_preview *preview,
     };
 }
 
-/* What is visible, lit. */
+/* The picture's other light stays; a pixel of many samples may have less of what is visible than its
+ * centre. */
+static void change(float *image, const float *now, const float *before, size_t floats)
+{
+    for (size_t i = 0; i < floats; i++) {
+        float by = now[i] - before[i], sum = image[i] + by;
+        float changed = sum > 0 ? sum : 0; /* the compiler makes vectors of this */
+        image[i] = fabsf(by) <= FLT_MAX ? changed : image[i];
+    }
+}
+
+/* `image` becomes what is visible, lit, or is changed by what that is more than `before`. */
 static enum turner_result light(const struct turner_preview *preview, struct turner_image *image,
+                                const struct turner_image *before,
                                 struct turner_renderer *renderer, struct turner_lighting *lighting,
                                 const struct turner_scene *scene)
 {
@@ -122,8 +153,12 @@ static enum turner_result light(const struct turner_preview *preview, struct tur
         push.positions = visible;
         push.params = params.buffer.address;
         TURNER_TRY_DONE(submit(gpu, &lighting->program, &push));
-        memcpy(image->rgba + (size_t)y * floats, pixels.mapped,
-               push.tile_height * floats * sizeof(float));
+        float *rows_of_image = image->rgba + (size_t)y * floats;
+        if (before)
+            change(rows_of_image, pixels.mapped, before->rgba + (size_t)y * floats,
+                   push.tile_height * floats);
+        else
+            memcpy(rows_of_image, pixels.mapped, push.tile_height * floats * sizeof(float));
         y += (int)push.tile_height;
     }
 done:
@@ -171,7 +206,7 @@ enum turner_result turner_preview_record(struct turner_preview *preview,
         TURNER_TRY(submit(renderer->gpu, &preview->visibility, &push));
         y += (int)push.tile_height;
     }
-    TURNER_TRY(light(preview, &preview->before, renderer, lighting, scene));
+    TURNER_TRY(light(preview, &preview->before, NULL, renderer, lighting, scene));
     preview->recorded = true;
     return TURNER_OK;
 }
@@ -182,22 +217,8 @@ enum turner_result turner_preview_light(const struct turner_preview *preview,
                                         struct turner_lighting *lighting,
                                         const struct turner_scene *scene)
 {
-    struct turner_image now;
-    TURNER_TRY(turner_image_create(&now, image->width, image->height));
-    enum turner_result result;
-    TURNER_TRY_DONE(turner_renderer_look(renderer, scene));
-    TURNER_TRY_DONE(light(preview, &now, renderer, lighting, scene));
-    size_t floats = 4 * (size_t)image->width * (size_t)image->height;
-    for (size_t i = 0; i < floats; i++) {
-        /* the picture's other light stays; a pixel of many samples may have less of this than its
-         * centre */
-        float change = now.rgba[i] - preview->before.rgba[i];
-        if (i % 4 < 3 && isfinite(change))
-            image->rgba[i] = fmaxf(image->rgba[i] + change, 0);
-    }
-done:
-    turner_image_destroy(&now);
-    return result;
+    TURNER_TRY(turner_renderer_look(renderer, scene));
+    return light(preview, image, &preview->before, renderer, lighting, scene);
 }
 
 void turner_preview_destroy(struct turner_gpu *gpu, struct turner_preview *preview)

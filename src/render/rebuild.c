@@ -1,6 +1,8 @@
 #include "render/rebuild.h"
 
+#include <errno.h>
 #include <stdlib.h>
+#include <time.h>
 
 #include "base/memory.h"
 #include "gpu/cached.h"
@@ -63,6 +65,18 @@ static struct turner_needs needs_for(const struct turner_part *part,
                                                               : part->needs;
 }
 
+/* The owner shows the preview; half a second is more than it takes. */
+static void wait_for_owner(struct turner_rebuild *rebuild)
+{
+    struct timespec end;
+    clock_gettime(CLOCK_REALTIME, &end);
+    end.tv_nsec += 500000000;
+    end.tv_sec += end.tv_nsec / 1000000000;
+    end.tv_nsec %= 1000000000;
+    while (sem_timedwait(&rebuild->go_on, &end) != 0 && errno == EINTR)
+        ;
+}
+
 static void *run(void *user)
 {
     struct turner_rebuild *rebuild = user;
@@ -74,6 +88,8 @@ static void *run(void *user)
                                &needs, rebuild->scene, rebuild->no_cache);
     }
     atomic_store(&rebuild->lit, true);
+    if (rebuild->previewed && rebuild->lighting.program.pipeline)
+        wait_for_owner(rebuild);
     if (sources->picture.text)
         rebuild->result = make_picture(rebuild);
     if (rebuild->result != TURNER_OK)
@@ -109,6 +125,7 @@ static void release(struct turner_rebuild *rebuild)
     turner_kernel_destroy(&rebuild->post_kernel);
     turner_sources_destroy(&rebuild->sources);
     turner_scene_destroy(rebuild->scene);
+    sem_destroy(&rebuild->go_on);
     free(rebuild->message);
     free(rebuild);
 }
@@ -117,7 +134,7 @@ enum turner_result turner_rebuild_create(struct turner_rebuild **out,
                                          const struct turner_renderer *renderer,
                                          struct turner_scene *scene,
                                          struct turner_sources *sources, uint64_t text,
-                                         bool no_cache)
+                                         bool no_cache, bool previewed)
 {
     struct turner_rebuild *rebuild = turner_calloc(1, sizeof *rebuild);
     *out = rebuild;
@@ -126,6 +143,8 @@ enum turner_result turner_rebuild_create(struct turner_rebuild **out,
     rebuild->scene = scene;
     rebuild->kind = renderer->kind;
     rebuild->no_cache = no_cache;
+    rebuild->previewed = previewed;
+    sem_init(&rebuild->go_on, 0, 0);
     rebuild->sources = *sources;
     *sources = (struct turner_sources){0};
     rebuild->parts[rebuild->part_count++] = part_of(renderer);
@@ -139,11 +158,22 @@ enum turner_result turner_rebuild_create(struct turner_rebuild **out,
     return turner_fail(TURNER_DEVICE, "no thread can be started to compile shaders in");
 }
 
+void turner_rebuild_go_on(struct turner_rebuild *rebuild)
+{
+    sem_post(&rebuild->go_on);
+}
+
+void turner_rebuild_give_up(struct turner_rebuild *rebuild)
+{
+    atomic_store(&rebuild->given_up, true);
+    turner_rebuild_go_on(rebuild);
+}
+
 void turner_rebuild_destroy(struct turner_rebuild *rebuild)
 {
     if (!rebuild)
         return;
-    atomic_store(&rebuild->given_up, true);
+    turner_rebuild_give_up(rebuild);
     pthread_join(rebuild->thread, NULL);
     release(rebuild);
 }

@@ -3,6 +3,7 @@
 #define TURNER_RENDER_REBUILD_H
 
 #include <pthread.h>
+#include <semaphore.h>
 #include <stdatomic.h>
 
 #include "render/preview.h"
@@ -25,7 +26,8 @@ struct turner_part {
  * the order in which it is made. */
 struct turner_rebuild {
     pthread_t thread;
-    atomic_bool lit, done, given_up; /* the last is for the thread to see */
+    atomic_bool lit, done, given_up; /* the last is for the thread to see, */
+    sem_t go_on;                     /* and this, where a preview was promised */
     uint64_t text; /* hash of the source and of what else decides the kernel */
     struct turner_gpu *gpu;
     struct turner_scene *scene; /* with parameters, materials' names */
@@ -36,7 +38,8 @@ struct turner_rebuild {
     int part_count;
 
     struct turner_lighting lighting;
-    bool lighting_shown; /* its owner's */
+    bool previewed;      /* the owner will show `lighting`, */
+    bool lighting_shown; /* and has: its own */
     struct turner_kernel kernel, post_kernel;
     struct turner_post post;
     struct turner_program visibility;
@@ -45,12 +48,17 @@ struct turner_rebuild {
     double start, seconds;
 };
 
-/* Starts the thread, which takes the sources and `scene`, also when it fails (TURNER_DEVICE). */
+/* Starts the thread, which takes the sources and `scene`, also when it fails (TURNER_DEVICE). Where
+ * `lighting` will be shown (`previewed`) nothing more is made until turner_rebuild_go_on, or for
+ * half a second: it would take a core from what one waits for. */
 enum turner_result turner_rebuild_create(struct turner_rebuild **rebuild,
                                          const struct turner_renderer *renderer,
                                          struct turner_scene *scene,
                                          struct turner_sources *sources, uint64_t text,
-                                         bool no_cache);
+                                         bool no_cache, bool previewed);
+void turner_rebuild_go_on(struct turner_rebuild *rebuild);
+/* Nobody wants it any more; the thread ends when it can. */
+void turner_rebuild_give_up(struct turner_rebuild *rebuild);
 /* Waits for what the thread is in the middle of. */
 void turner_rebuild_destroy(struct turner_rebuild *rebuild);
 

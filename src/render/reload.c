@@ -63,7 +63,8 @@ static void set_message(struct turner_reload *reload, const char *message)
 static void start(struct turner_reload *reload, struct turner_sources *sources)
 {
     if (turner_rebuild_create(&reload->build, reload->renderer, copy_of(reload->scene), sources,
-                              reload->wanted, reload->options.no_cache) == TURNER_OK)
+                              reload->wanted, reload->options.no_cache,
+                              reload->preview.recorded) == TURNER_OK)
         return;
     set_message(reload, turner_message());
     reload->state = TURNER_RELOAD_BROKEN;
@@ -147,8 +148,8 @@ static void look(struct turner_reload *reload)
     struct turner_rebuild *build = reload->build;
     bool stale = build && build->sources.picture.text && build->text != reload->wanted;
     if (reload->state == TURNER_RELOAD_BUILDING && stale && !reload->stale) {
-        atomic_store(&build->given_up, true); /* what previews take is waited for: they would never
-                                                 be, with one save after the other */
+        turner_rebuild_give_up(build); /* what previews take is waited for: they would never be,
+                                          with one save after the other */
         reload->stale = build;
         reload->build = NULL;
     }
@@ -313,6 +314,8 @@ void turner_reload_want_previews(struct turner_reload *reload, bool wanted)
 void turner_reload_forget(struct turner_reload *reload)
 {
     reload->preview.recorded = false;
+    if (reload->build)
+        turner_rebuild_go_on(reload->build);
 }
 
 /* The kernels that previews take are made when nothing else is to be. */
@@ -354,8 +357,10 @@ enum turner_result turner_reload_preview(struct turner_reload *reload, struct tu
 {
     struct turner_rebuild *build = reload->build;
     build->lighting_shown = true;
-    return turner_preview_light(&reload->preview, image, reload->renderer, &build->lighting,
-                                scene);
+    enum turner_result result = turner_preview_light(&reload->preview, image, reload->renderer,
+                                                     &build->lighting, scene);
+    turner_rebuild_go_on(build);
+    return result;
 }
 
 /* ---- its beginning and end ---- */

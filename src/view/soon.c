@@ -33,8 +33,7 @@ static enum turner_result show_preview(struct turner_painter *painter,
     TURNER_TRY(turner_reload_preview(painter->reload, &painter->soon, scene));
     TURNER_TRY(turner_post_draw(&painter->soon, &renderer->post, renderer->gpu));
     painter->own.changes.previewed++;
-    show(painter, &painter->soon, wish, true);
-    return TURNER_OK;
+    show(painter, &painter->soon, wish, true);    return TURNER_OK;
 }
 
 enum turner_result turner_painter_rest(struct turner_painter *painter,
@@ -43,8 +42,12 @@ enum turner_result turner_painter_rest(struct turner_painter *painter,
     struct turner_reload *reload = painter->reload;
     struct turner_scene scene = painter->scene;
     struct turner_render_options options = painter->render;
-    if (!reload || painter->options.turn || painter->blind || wish->seen != TURNER_SEEN_PICTURE)
+    if (!reload || painter->options.turn || painter->blind)
         return TURNER_OK;
+    if (wish->seen != TURNER_SEEN_PICTURE) {
+        turner_reload_forget(reload);
+        return TURNER_OK;
+    }
     scene.settings = wish->settings;
     if (turner_reload_has_preview(reload))
         return show_preview(painter, wish, &scene);
