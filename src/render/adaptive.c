@@ -35,6 +35,12 @@ struct picture {
     struct turner_overview overview; /* where an error is asked for */
     struct turner_scale scale;       /* the same */
     float *errors;  /* the same, or NULL: the estimate of each pixel */
+    float *shared;  /* the same: what it tells those around */
+};
+
+/* What is said of a pixel. */
+struct verdict {
+    float error, shared;
 };
 
 bool turner_adaptive_wanted(const struct turner_settings *settings)
@@ -111,12 +117,13 @@ static void mark_by_threshold(const struct picture *picture, const struct turner
 /* ---- an error on demand ---- */
 
 /* The estimate of a patch; where it is too much, marks the cells that it comes from. */
-static float mark_by_error(const struct picture *picture, const struct turner_patch *patch)
+static struct verdict mark_by_error(const struct picture *picture,
+                                    const struct turner_patch *patch)
 {
     struct turner_estimate estimate =
         turner_estimate_pixel(&picture->cells, patch, &picture->scale);
-    float total = turner_estimate_total(&estimate), most = 0;
     struct turner_cell *cells = picture->cells.cells + patch->first;
+    float most = 0;
     for (size_t i = 0; i < patch->count; i++) {
         cells[i].split = false;
         if (is_divisible(picture, &cells[i]))
@@ -130,17 +137,20 @@ static float mark_by_error(const struct picture *picture, const struct turner_pa
                        ? FIRST_CELLS_BUSY
                        : FIRST_CELLS;
     bool first = patch->count < least;
+    struct verdict verdict = {turner_estimate_total(&estimate),
+                              turner_estimate_shared(&estimate, patch->count > least)};
     if (!first && fmaxf(turner_estimate_of_samples(&estimate), estimate.look) <= left)
-        return total;
+        return verdict;
     for (size_t i = 0; i < patch->count; i++)
         cells[i].split = is_divisible(picture, &cells[i]) &&
                          (first || cells[i].measure >= SPLIT_SHARE * most);
-    return total;
+    return verdict;
 }
 
 /* ---- a tile ---- */
 
-static void finish(struct picture *picture, const struct turner_patch *patch, float error)
+static void finish(struct picture *picture, const struct turner_patch *patch,
+                   struct verdict verdict)
 {
     struct turner_statistics *statistics = picture->statistics;
     size_t at = (size_t)patch->y * (size_t)picture->image->width + (size_t)patch->x;
@@ -150,8 +160,10 @@ static void finish(struct picture *picture, const struct turner_patch *patch, fl
         statistics->samples_max = patch->samples;
     if (turner_layers_want(picture->layers, 1u << TURNER_LAYER_SAMPLES))
         picture->layers->whole[TURNER_LAYER_SAMPLES][at] = (uint32_t)patch->samples;
-    if (picture->errors)
-        picture->errors[at] = error;
+    if (picture->errors) {
+        picture->errors[at] = verdict.error;
+        picture->shared[at] = verdict.shared;
+    }
 }
 
 /* What is said of the errors is said of the pooled ones. */
@@ -164,7 +176,7 @@ static void finish_errors(struct picture *picture)
     float *pooled = wanted ? picture->layers->real[TURNER_LAYER_ERROR]
                            : turner_calloc(pixels, sizeof *pooled);
     double sum = 0;
-    turner_estimate_pool(pooled, picture->errors, width, height);
+    turner_estimate_pool(pooled, picture->errors, picture->shared, width, height);
     for (size_t i = 0; i < pixels; i++) {
         sum += (double)pooled[i];
         statistics->error_max = fmax(statistics->error_max, (double)pooled[i]);
@@ -217,11 +229,12 @@ static void begin(struct picture *picture, struct turner_tile tile, int around)
 }
 
 /* Marks the cells of a patch that are to be divided; true if there are any. */
-static bool mark(struct picture *picture, const struct turner_patch *patch, float *error)
+static bool mark(struct picture *picture, const struct turner_patch *patch,
+                 struct verdict *verdict)
 {
-    *error = 0;
+    *verdict = (struct verdict){0};
     if (picture->renderer->settings.error > 0)
-        *error = mark_by_error(picture, patch);
+        *verdict = mark_by_error(picture, patch);
     else
         mark_by_threshold(picture, patch);
     keep_to_budget(picture, patch);
@@ -237,11 +250,11 @@ static void finish_round(struct picture *picture, const struct turner_tile *tile
     struct turner_cells *cells = &picture->cells;
     for (size_t i = 0; i < cells->patch_count; i++) {
         const struct turner_patch *patch = &cells->patches[i];
-        float error;
+        struct verdict verdict;
         bool within = turner_tile_has(tile, patch->x, patch->y);
-        if ((!within && patch->count == FIRST_CELLS) || mark(picture, patch, &error))
+        if ((!within && patch->count == FIRST_CELLS) || mark(picture, patch, &verdict))
             continue;
-        finish(picture, patch, error);
+        finish(picture, patch, verdict);
         if (picture->lattice.counted)
             finish_counts(picture, patch);
     }
@@ -351,9 +364,11 @@ enum turner_result turner_adaptive_draw(struct turner_renderer *renderer,
     picture.scale.size = (float)(image->width > image->height ? image->width : image->height);
     picture.cells.lattice = &picture.lattice;
     picture.cells.jittered = renderer->settings.error > 0;
-    if (renderer->settings.error > 0)
-        picture.errors = turner_calloc((size_t)image->width * (size_t)image->height,
-                                       sizeof *picture.errors);
+    size_t pixels = (size_t)image->width * (size_t)image->height;
+    if (renderer->settings.error > 0) {
+        picture.errors = turner_calloc(pixels, sizeof *picture.errors);
+        picture.shared = turner_calloc(pixels, sizeof *picture.shared);
+    }
     turner_lattice_create(&picture.lattice, picture.level_max + 1);
     picture.lattice.counted = renderer->needs.pixel_counts;
     double start = turner_seconds();
@@ -363,5 +378,6 @@ enum turner_result turner_adaptive_draw(struct turner_renderer *renderer,
     turner_lattice_destroy(&picture.lattice);
     turner_overview_destroy(&picture.overview);
     free(picture.errors);
+    free(picture.shared);
     return result;
 }

@@ -15,7 +15,8 @@
 #define HIDDEN 0.1f      /* of the bend suspected, that a cell of a quarter pixel may hide */
 #define HIDDEN_LEVEL 2
 #define LOOK 0.6f        /* of the bends in a crowd, that is worth a second look */
-#define POOL 0.3f        /* of the estimates around a pixel, that its own is at least */
+#define POOL 0.3f        /* of what edges add around a pixel, that its own estimate is at least */
+#define POOL_WHOLE 0.12f /* the same of pixels that were not divided; see turner_estimate_shared */
 #define POOL_RANK 2      /* of the eight around */
 #define ROUNDING 5.5e-7f /* of the radiance */
 #define ROUNDING_BLEND 3e-8f /* of what a gradient spans: half the spacing of floats below 1 */
@@ -179,6 +180,7 @@ struct turner_estimate turner_estimate_pixel(const struct turner_cells *cells,
         e.look = fmaxf(e.look, look_in(cell->level, around));
     }
     turner_cells_value(value, cells, patch);
+    e.edges = SAFETY * EDGE * sqrtf(squares);
     e.sampling = SAFETY * (fmaxf(SMOOTH * largest(sum), EDGE * sqrtf(squares)) + REST * rest);
     e.cut = value[3] * scale->bound;
     e.methods = SAFETY * around->methods;
@@ -187,13 +189,21 @@ struct turner_estimate turner_estimate_pixel(const struct turner_cells *cells,
     return e;
 }
 
+/* The few cells of a pixel that was not divided cannot tell a kink beside a cell's side from an edge,
+ * and count it as one; and a kink hides nothing. */
+float turner_estimate_shared(const struct turner_estimate *estimate, bool divided)
+{
+    return (divided ? POOL : POOL_WHOLE) * hypotf(estimate->edges, estimate->hidden);
+}
+
 static int compare_floats(const void *a, const void *b)
 {
     float x = *(const float *)a, y = *(const float *)b;
     return x < y ? -1 : x > y;
 }
 
-void turner_estimate_pool(float *pooled, const float *errors, int width, int height)
+void turner_estimate_pool(float *pooled, const float *errors, const float *shared, int width,
+                          int height)
 {
     for (int y = 0; y < height; y++) {
         for (int x = 0; x < width; x++) {
@@ -202,13 +212,12 @@ void turner_estimate_pool(float *pooled, const float *errors, int width, int hei
             for (int i = 0; i < 9; i++) {
                 int column = x + i % 3 - 1, row = y + i / 3 - 1;
                 if (i != 4 && column >= 0 && column < width && row >= 0 && row < height)
-                    around[count++] = errors[(size_t)row * (size_t)width + (size_t)column];
+                    around[count++] = shared[(size_t)row * (size_t)width + (size_t)column];
             }
             qsort(around, (size_t)count, sizeof *around, compare_floats);
             size_t at = (size_t)y * (size_t)width + (size_t)x;
-            pooled[at] = count < POOL_RANK
-                             ? errors[at]
-                             : fmaxf(errors[at], POOL * around[count - POOL_RANK]);
+            pooled[at] = count < POOL_RANK ? errors[at]
+                                           : fmaxf(errors[at], around[count - POOL_RANK]);
         }
     }
 }

@@ -8,6 +8,7 @@
 /* Radiance, in the channel where it is most. */
 struct turner_estimate {
     float sampling; /* what the cells are wrong by */
+    float edges;    /* of that, what edges and disorder are: what is linear or has a kink is not */
     float hidden;   /* what no sample saw, going by what is around */
     float look;     /* not part of it: where this is much, more samples are worth their while */
     float cut;      /* rays that were not followed */
@@ -40,8 +41,13 @@ struct turner_estimate turner_estimate_pixel(const struct turner_cells *cells,
                                              const struct turner_patch *patch,
                                              const struct turner_scale *scale);
 
-/* Estimates of all pixels of a picture (width × height), of which one that is far below those around
- * it is raised: a pixel seldom has so much less to it. */
-void turner_estimate_pool(float *pooled, const float *errors, int width, int height);
+/* What a pixel tells those beside it to count with at least: an edge that it has may go on there,
+ * unmet. Less where it was not `divided` for what it has. */
+float turner_estimate_shared(const struct turner_estimate *estimate, bool divided);
+
+/* Estimates of all pixels of a picture (width × height) are raised to what at least two beside each
+ * share (turner_estimate_shared): a pixel seldom has so much less to it. */
+void turner_estimate_pool(float *pooled, const float *errors, const float *shared, int width,
+                          int height);
 
 #endif

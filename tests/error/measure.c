@@ -2,13 +2,15 @@
  * fixed settings:
  *
  *   error_measure SCENE WIDTH HEIGHT ERROR [--truth FILE] [--every N] [--fixed] [--share S]
- *                 [--tight T] [--method NAME=VALUE]
+ *                 [--tight T] [--method NAME=VALUE] [--list FILE]
  *
- * --truth keeps the truth in a file (.exr) for the next time. --every looks at one pixel in N across
- * and down. --fixed looks for the smallest regular
- * setting that is as close to the truth on as many pixels, and says how long that takes. Prints one
- * line; exit status 1 when the estimate is a bound on less than the share S of the pixels (0.999), or
- * more than T times (10) the true error, or the spacing of floats there, on the median pixel. */
+ * --truth keeps the truth in a file (.exr) for the next time. --every looks at one pixel in N
+ * across and down. --fixed looks for the smallest regular setting that is as close to the truth on
+ * as many pixels, and says how long that takes. --list writes a line for each pixel looked at: x, y,
+ * true error, estimate, samples, the picture's red, green and blue, the truth's. Prints one line
+ * about the pixels looked at; exit status 1 when the estimate is a bound on less than the share S
+ * of them (0.999), or more than T times (10) the true error, or the spacing of floats there, on the
+ * median pixel. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,7 +27,7 @@
 #define TRUTH_TOLERANCE 0.0025 /* of the error asked for, that a square of the truth may be off by */
 
 struct arguments {
-    const char *scene, *truth, *method;
+    const char *scene, *truth, *method, *list;
     int width, height, every;
     double error, share, tight;
     bool fixed;
@@ -78,34 +80,67 @@ static double resolution(const struct truth *truth, size_t i)
 }
 
 struct result {
-    double bound, tightness;    /* share of pixels; median of estimate / true error */
-    double worst, most;         /* true error: largest, and that of 99.9 % */
+    double bound, tightness; /* share of pixels; median of estimate / true error */
+    double worst, most;      /* true error: largest, and that of 99.9 % */
+    double estimate_mean, estimate_most, samples;
+    size_t missed; /* estimates above what was asked for */
     double seconds;
-    struct turner_statistics statistics;
 };
 
-static struct result measure(const struct turner_scene *scene, const struct truth *truth)
+static void list_pixel(FILE *list, const struct truth *truth, const struct turner_image *image,
+                       const struct turner_layers *layers, size_t i)
+{
+    size_t at = pixel_of(truth, image, i), width = (size_t)image->width;
+    const float *pixel = image->rgba + 4 * at;
+    const double *true_pixel = truth->radiance[i];
+    fprintf(list, "%zu %zu %.6g %.6g %u %.7g %.7g %.7g %.7g %.7g %.7g\n", at % width, at / width,
+            true_error(truth, image, i), (double)layers->real[TURNER_LAYER_ERROR][at],
+            (unsigned)layers->whole[TURNER_LAYER_SAMPLES][at], (double)pixel[0], (double)pixel[1],
+            (double)pixel[2], true_pixel[0], true_pixel[1], true_pixel[2]);
+}
+
+static void write_list(const char *path, const struct truth *truth,
+                       const struct turner_image *image, const struct turner_layers *layers)
+{
+    FILE *list = fopen(path, "w");
+    for (size_t i = 0; list && i < (size_t)truth->width * (size_t)truth->height; i++)
+        list_pixel(list, truth, image, layers, i);
+    if (!list || fclose(list)) {
+        perror(path);
+        exit(1);
+    }
+}
+
+static struct result measure(const struct turner_scene *scene, const struct truth *truth,
+                             const char *list)
 {
     struct turner_layers layers = {.wanted = 1u << TURNER_LAYER_ERROR | 1u << TURNER_LAYER_SAMPLES};
     const struct turner_render_options options = {.layers = &layers};
     struct turner_image image;
+    struct turner_statistics statistics = {0};
     struct result r = {0};
-    require(turner_render(&image, scene, &options, &r.statistics));
+    require(turner_render(&image, scene, &options, &statistics));
     size_t count = (size_t)truth->width * (size_t)truth->height, bounded = 0;
     double *errors = turner_calloc(count, sizeof *errors);
     double *ratios = turner_calloc(count, sizeof *ratios);
-    const float *estimates = layers.real[TURNER_LAYER_ERROR];
     for (size_t i = 0; i < count; i++) {
+        size_t at = pixel_of(truth, &image, i);
+        double estimate = (double)layers.real[TURNER_LAYER_ERROR][at];
         errors[i] = true_error(truth, &image, i);
-        double estimate = (double)estimates[pixel_of(truth, &image, i)];
         bounded += errors[i] <= estimate;
         ratios[i] = estimate / fmax(errors[i], resolution(truth, i));
+        r.estimate_mean += estimate / (double)count;
+        r.estimate_most = fmax(r.estimate_most, estimate);
+        r.missed += estimate > scene->settings.error;
+        r.samples += (double)layers.whole[TURNER_LAYER_SAMPLES][at] / (double)count;
     }
+    if (list)
+        write_list(list, truth, &image, &layers);
     r.bound = (double)bounded / (double)count;
     r.tightness = quantile(ratios, count, 0.5);
     r.most = quantile(errors, count, SHARE);
     r.worst = errors[count - 1];
-    r.seconds = r.statistics.seconds_trace;
+    r.seconds = statistics.seconds_trace;
     free(errors);
     free(ratios);
     turner_layers_destroy(&layers);
@@ -193,6 +228,8 @@ int main(int argc, char **argv)
             a.share = atof(argv[++i]);
         else if (strcmp(argv[i], "--tight") == 0 && i + 1 < argc)
             a.tight = atof(argv[++i]);
+        else if (strcmp(argv[i], "--list") == 0 && i + 1 < argc)
+            a.list = argv[++i];
         else
             a.fixed = strcmp(argv[i], "--fixed") == 0;
     }
@@ -206,13 +243,12 @@ int main(int argc, char **argv)
     if (a.method)
         require(turner_method_assign(&scene->settings, a.method));
     if (a.fixed)
-        measure(scene, &truth); /* has the driver compile the kernel */
-    struct result r = measure(scene, &truth);
+        measure(scene, &truth, NULL); /* has the driver compile the kernel */
+    struct result r = measure(scene, &truth, a.list);
     printf("%s: bound on %.2f %%, median estimate %.1f times the error; true error %.2g on 99.9 %%, "
-           "%.2g at most; estimate %.2g on average, %.2g at most, %llu pixels missed; %.1f samples, "
-           "%.2f s\n", a.scene, 100 * r.bound, r.tightness, r.most, r.worst,
-           r.statistics.error_mean, r.statistics.error_max,
-           (unsigned long long)r.statistics.error_missed, r.statistics.samples_mean, r.seconds);
+           "%.2g at most; estimate %.2g on average, %.2g at most, %zu pixels missed; %.1f samples, "
+           "%.2f s\n", a.scene, 100 * r.bound, r.tightness, r.most, r.worst, r.estimate_mean,
+           r.estimate_most, r.missed, r.samples, r.seconds);
     if (a.fixed) {
         struct fixed f = find_fixed(scene, &truth, r.most, 1.5 * r.seconds);
         fflush(stdout);

@@ -5,6 +5,8 @@
 
 #include "../render/render_test.h"
 #include "render/cells.h"
+#include "render/estimate.h"
+#include "render/layers.h"
 
 #define WIDTH 24
 #define HEIGHT 18
@@ -149,15 +151,26 @@ static void same_in_tiles(const char *path, double threshold, double error)
     scene->settings.aa_threshold = threshold;
     scene->settings.error = error;
     scene->settings.spp = 64;
+    unsigned wanted = error > 0 ? 1u << TURNER_LAYER_ERROR : 0;
+    struct turner_layers layers = {.wanted = wanted};
+    const struct turner_render_options options = {.layers = &layers};
     struct turner_image whole;
-    draw(&rig, &whole, scene, BVH, NULL, NULL);
+    assert_ok(turner_layers_create(&layers, scene));
+    draw(&rig, &whole, scene, BVH, &options, NULL);
     for (int tile = 5; tile <= 32; tile += 27) {
-        const struct turner_render_options options = {.tile = tile};
+        struct turner_layers tiled_layers = {.wanted = wanted};
+        const struct turner_render_options tiles = {.tile = tile, .layers = &tiled_layers};
         struct turner_image tiled;
-        draw(&rig, &tiled, scene, BVH, &options, NULL);
+        assert_ok(turner_layers_create(&tiled_layers, scene));
+        draw(&rig, &tiled, scene, BVH, &tiles, NULL);
         assert_same_picture(&whole, &tiled, "tiles");
+        if (wanted)
+            assert_memory_equal(layers.real[TURNER_LAYER_ERROR],
+                                tiled_layers.real[TURNER_LAYER_ERROR], 64 * 48 * sizeof(float));
+        turner_layers_destroy(&tiled_layers);
         turner_image_destroy(&tiled);
     }
+    turner_layers_destroy(&layers);
     turner_image_destroy(&whole);
     turner_scene_destroy(scene);
 }
@@ -212,6 +225,25 @@ static void cells_are_exact_for_what_is_linear(void **state)
     turner_lattice_destroy(&lattice);
 }
 
+/* A pixel's estimate is at least what two of those beside it share, be it in a corner or not; what
+ * one alone has stays there. */
+static void two_neighbours_raise_a_pixel(void **state)
+{
+    (void)state;
+    const float errors[9] = {1, 1, 1, 1, 1, 1, 1, 1, 9};
+    const float shared[9] = {0, 7, 0, 0, 5, 3, 0, 0, 0};
+    const float expected[9] = {5, 3, 5, 5, 3, 5, 1, 3, 9};
+    float pooled[9], lone[2];
+    turner_estimate_pool(pooled, errors, shared, 3, 3);
+    for (int i = 0; i < 9; i++)
+        assert_true(pooled[i] == expected[i]);
+    turner_estimate_pool(lone, errors, shared, 1, 2);
+    assert_true(lone[0] == 1 && lone[1] == 1);
+    struct turner_estimate smooth = {.sampling = 1}, edge = {.sampling = 1, .edges = 1};
+    assert_true(turner_estimate_shared(&smooth, true) == 0);
+    assert_true(turner_estimate_shared(&edge, true) > turner_estimate_shared(&edge, false));
+}
+
 /* Lists are traced in pieces whose size follows the time they take, and stays within the buffers. */
 static void pieces_fit_their_buffers(void **state)
 {
@@ -242,6 +274,7 @@ int main(void)
         cmocka_unit_test(is_whitteds_rule),
         cmocka_unit_test(tiles_leave_no_trace),
         cmocka_unit_test(cells_are_exact_for_what_is_linear),
+        cmocka_unit_test(two_neighbours_raise_a_pixel),
         cmocka_unit_test(pieces_fit_their_buffers),
     };
     return rig_close(&rig, cmocka_run_group_tests(tests, NULL, NULL));

@@ -10,12 +10,18 @@ set_target_properties(test_adaptive PROPERTIES LINKER_LANGUAGE CXX)
 add_test(NAME adaptive COMMAND test_adaptive)
 set_tests_properties(adaptive PROPERTIES SKIP_RETURN_CODE 77 LABELS device)
 
+turner_unit_test(error_truth "${CMAKE_CURRENT_LIST_DIR}/test_truth.c;${CMAKE_CURRENT_LIST_DIR}/truth.c"
+                 LAYERS base image scene reference)
+
 add_executable(error_measure ${CMAKE_CURRENT_LIST_DIR}/measure.c ${CMAKE_CURRENT_LIST_DIR}/truth.c)
 target_link_libraries(error_measure PRIVATE turner_flags ${turner_libraries})
 foreach(layer IN ITEMS base image scene reference bvh gpu render)
     target_link_libraries(error_measure PRIVATE turner_${layer})
 endforeach()
 set_target_properties(error_measure PROPERTIES LINKER_LANGUAGE CXX)
+if(TARGET turner_oiio) # reads the truths
+    add_dependencies(error_measure turner_oiio)
+endif()
 
 # The estimate beside the truth: a bound on 99.9 % of the pixels, within a factor of 10 on the median
 # one. docs/error.md has more scenes, and which miss it.
