@@ -20,6 +20,11 @@ void turner_sources_destroy(struct turner_sources *sources)
 
 /* ---- the thread ---- */
 
+static enum turner_result still_wanted(const struct turner_rebuild *rebuild)
+{
+    return atomic_load(&rebuild->given_up) ? TURNER_INTERRUPTED : TURNER_OK;
+}
+
 static enum turner_result make_part(struct turner_rebuild *rebuild, struct turner_part *part)
 {
     const struct turner_kernel *kernel = &rebuild->kernel;
@@ -33,11 +38,13 @@ static enum turner_result make_part(struct turner_rebuild *rebuild, struct turne
     TURNER_TRY(rebuild->no_cache
                    ? turner_spirv_reduce(&special, &kernel->spirv, constants, count)
                    : turner_spirv_reduce_cached(&special, NULL, &kernel->spirv, constants, count));
-    enum turner_result result = turner_spirv_validate(&special); /* half of what it was */
+    enum turner_result result = still_wanted(rebuild);
+    if (result == TURNER_OK)
+        result = turner_spirv_validate(&special); /* half of what it was */
     if (result == TURNER_OK)
         result = turner_program_create(&part->program, rebuild->gpu, &special, NULL, 0,
                                        VK_NULL_HANDLE);
-    if (result == TURNER_OK && !atomic_load(&rebuild->given_up))
+    if (result == TURNER_OK && still_wanted(rebuild) == TURNER_OK)
         turner_gpu_translate(rebuild->gpu, &special);
     turner_spirv_destroy(&special);
     return result;
@@ -46,8 +53,10 @@ static enum turner_result make_part(struct turner_rebuild *rebuild, struct turne
 static enum turner_result make_picture(struct turner_rebuild *rebuild)
 {
     struct turner_sources *sources = &rebuild->sources;
+    TURNER_TRY(still_wanted(rebuild));
     TURNER_TRY(turner_kernel_compile(&rebuild->kernel, rebuild->kind, &sources->picture,
                                      rebuild->no_cache));
+    TURNER_TRY(still_wanted(rebuild));
     for (int i = 0; i < rebuild->part_count; i++)
         TURNER_TRY(make_part(rebuild, &rebuild->parts[i]));
     if (!(turner_hooks_of(&sources->post) & 1u << TURNER_HOOK_POST))
@@ -95,7 +104,7 @@ static void *run(void *user)
     if (rebuild->result != TURNER_OK)
         rebuild->message = turner_strdup(turner_message()); /* each thread has its own */
     rebuild->seconds = turner_seconds() - rebuild->start;
-    if (sources->visibility.text && !atomic_load(&rebuild->given_up))
+    if (sources->visibility.text && still_wanted(rebuild) == TURNER_OK)
         turner_visibility_create(&rebuild->visibility, rebuild->gpu, &sources->visibility,
                                  rebuild->kind, &part->needs, part->bvh_depth, rebuild->scene,
                                  rebuild->no_cache);

@@ -25,6 +25,7 @@ struct turner_part {
 /* The thread has it alone until `lit`, and all but `lighting` until `done`. What is made stands in
  * the order in which it is made. */
 struct turner_rebuild {
+    struct turner_rebuild *next; /* its owner's */
     pthread_t thread;
     atomic_bool lit, done, given_up; /* the last is for the thread to see, */
     sem_t go_on;                     /* and this, where a preview was promised */

@@ -11,6 +11,8 @@
 #include "render/shader_watch.h"
 #include "../shaders/shared.h"
 
+#define STALE_MAX 4 /* a driver's compiler cannot be stopped, and each takes a core meanwhile */
+
 struct turner_reload {
     struct turner_renderer *renderer;
     struct turner_scene *scene; /* what is kept of it: parameters, materials' names, folders */
@@ -20,7 +22,7 @@ struct turner_reload {
     uint64_t wanted;      /* hash of what the files say now */
     uint64_t current;     /* of what the renderer has */
     struct turner_rebuild *build; /* under way, or finished and not taken, or NULL */
-    struct turner_rebuild *stale; /* NULL, or one under way that nobody waits for */
+    struct turner_rebuild *stale; /* those under way that nobody waits for */
     char *message;
     double seconds;
     bool previews;                 /* are wanted */
@@ -124,6 +126,29 @@ static void read_previews(const struct turner_reload *reload, struct turner_sour
     turner_shader_path_destroy(&path);
 }
 
+static int stale_count(const struct turner_reload *reload)
+{
+    int count = 0;
+    for (const struct turner_rebuild *one = reload->stale; one; one = one->next)
+        count++;
+    return count;
+}
+
+/* Those that have ended, or all. */
+static void drop_stale(struct turner_reload *reload, bool all)
+{
+    struct turner_rebuild **at = &reload->stale;
+    while (*at) {
+        struct turner_rebuild *one = *at;
+        if (all || atomic_load(&one->done)) {
+            *at = one->next;
+            turner_rebuild_destroy(one);
+        } else {
+            at = &one->next;
+        }
+    }
+}
+
 /* The files say something else, perhaps: what is to be done about it. */
 static void look(struct turner_reload *reload)
 {
@@ -147,9 +172,10 @@ static void look(struct turner_reload *reload)
     }
     struct turner_rebuild *build = reload->build;
     bool stale = build && build->sources.picture.text && build->text != reload->wanted;
-    if (reload->state == TURNER_RELOAD_BUILDING && stale && !reload->stale) {
+    if (reload->state == TURNER_RELOAD_BUILDING && stale && stale_count(reload) < STALE_MAX) {
         turner_rebuild_give_up(build); /* what previews take is waited for: they would never be,
                                           with one save after the other */
+        build->next = reload->stale;
         reload->stale = build;
         reload->build = NULL;
     }
@@ -192,10 +218,7 @@ enum turner_reload_state turner_reload_poll(struct turner_reload *reload)
 {
     if (turner_watch_changed(&reload->watch))
         look(reload);
-    if (reload->stale && atomic_load(&reload->stale->done)) {
-        turner_rebuild_destroy(reload->stale);
-        reload->stale = NULL;
-    }
+    drop_stale(reload, false);
     struct turner_rebuild *build = reload->build;
     if (build && atomic_load(&build->done) &&
         (reload->state == TURNER_RELOAD_BUILDING || build->text != reload->wanted ||
@@ -396,7 +419,7 @@ void turner_reload_destroy(struct turner_reload *reload)
 {
     if (!reload)
         return;
-    turner_rebuild_destroy(reload->stale);
+    drop_stale(reload, true);
     turner_rebuild_destroy(reload->build);
     turner_preview_destroy(reload->renderer->gpu, &reload->preview);
     turner_lighting_destroy(reload->renderer->gpu, &reload->lighting);

@@ -493,6 +493,36 @@ def soon(screen):
 
 
 @test
+def follows(screen):
+    """While a saved hook's kernel is made, compiled by the driver too, the picture goes on moving."""
+    hook = pathlib.Path("shaders/user/background.glsl")
+    hook.parent.mkdir(parents=True)
+    text = "vec3 user_background(vec3 direction)\n{\n    return vec3(%.9f);\n}\n"
+    hook.write_text(text % 0.2)
+    view = View(screen, "scene.json", "-q", "--spin", "2").find()
+    changes = []  # seconds at which the display showed something else
+
+    def moves():
+        now = screen.shown(*SIZE)
+        if not changes or now != changes[-1][1]:
+            changes.append((time.monotonic(), now))
+        return len(changes)
+
+    wait_until("it does not move", lambda: moves() > 20)
+    gray = changes[-1][1][:3]
+    del changes[:-1]
+    start = changes[0][0]
+    hook.write_text(text % (0.8 + 1e-3 * random.random()))  # no cache has it
+    wait_until("the saved hook is not seen", lambda: moves() and changes[-1][1][:3] != gray)
+    times = [when for when, _ in changes]
+    took = times[-1] - start
+    pause = max(b - a for a, b in zip(times, times[1:]))
+    print(f"{len(times)} frames in {took:.2f} s, at most {pause:.2f} s apart")
+    assert len(times) > 5 and pause < took / 4, "it stood still meanwhile"
+    view.quit()
+
+
+@test
 def rays(screen):
     """Ctrl+click lists what turner explain lists; a picture that moves takes no more memory."""
     view = opened(screen)
