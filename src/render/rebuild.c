@@ -143,7 +143,7 @@ enum turner_result turner_rebuild_create(struct turner_rebuild **out,
                                          const struct turner_renderer *renderer,
                                          struct turner_scene *scene,
                                          struct turner_sources *sources, uint64_t text,
-                                         bool no_cache, bool previewed)
+                                         bool post_only, bool no_cache, bool previewed)
 {
     struct turner_rebuild *rebuild = turner_calloc(1, sizeof *rebuild);
     *out = rebuild;
@@ -156,8 +156,9 @@ enum turner_result turner_rebuild_create(struct turner_rebuild **out,
     sem_init(&rebuild->go_on, 0, 0);
     rebuild->sources = *sources;
     *sources = (struct turner_sources){0};
-    rebuild->parts[rebuild->part_count++] = part_of(renderer);
-    if (renderer->accurate)
+    if (!post_only)
+        rebuild->parts[rebuild->part_count++] = part_of(renderer);
+    if (!post_only && renderer->accurate)
         rebuild->parts[rebuild->part_count++] = part_of(renderer->accurate);
     rebuild->start = turner_seconds();
     if (pthread_create(&rebuild->thread, NULL, run, rebuild) == 0)

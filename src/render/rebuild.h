@@ -25,7 +25,8 @@ struct turner_part {
 /* The thread has it alone until `lit`, and all but `lighting` until `done`. What is made stands in
  * the order in which it is made. */
 struct turner_rebuild {
-    struct turner_rebuild *next; /* its owner's */
+    struct turner_rebuild *next; /* its owner's, as is this: */
+    uint64_t picture;            /* hash of what decides the picture's kernel */
     pthread_t thread;
     atomic_bool lit, done, given_up; /* the last is for the thread to see, */
     sem_t go_on;                     /* and this, where a preview was promised */
@@ -35,8 +36,8 @@ struct turner_rebuild {
     unsigned kind;
     bool no_cache;
     struct turner_sources sources;
-    struct turner_part parts[2]; /* the picture's first */
-    int part_count;
+    struct turner_part parts[2]; /* the picture's first, */
+    int part_count;              /* or none: only what follows the picture has changed */
 
     struct turner_lighting lighting;
     bool previewed;      /* the owner will show `lighting`, */
@@ -49,14 +50,15 @@ struct turner_rebuild {
     double start, seconds;
 };
 
-/* Starts the thread, which takes the sources and `scene`, also when it fails (TURNER_DEVICE). Where
+/* Starts the thread, which takes the sources and `scene`, also when it fails (TURNER_DEVICE). With
+ * `post_only` the renderer keeps its programs, and only that of the hook post is made. Where
  * `lighting` will be shown (`previewed`) nothing more is made until turner_rebuild_go_on, or for
  * half a second: it would take a core from what one waits for. */
 enum turner_result turner_rebuild_create(struct turner_rebuild **rebuild,
                                          const struct turner_renderer *renderer,
                                          struct turner_scene *scene,
                                          struct turner_sources *sources, uint64_t text,
-                                         bool no_cache, bool previewed);
+                                         bool post_only, bool no_cache, bool previewed);
 void turner_rebuild_go_on(struct turner_rebuild *rebuild);
 /* Nobody wants it any more; the thread ends when it can. */
 void turner_rebuild_give_up(struct turner_rebuild *rebuild);

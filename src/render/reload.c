@@ -20,7 +20,8 @@ struct turner_reload {
     struct turner_watch watch;
     enum turner_reload_state state;
     uint64_t wanted;      /* hash of what the files say now */
-    uint64_t current;     /* of what the renderer has */
+    uint64_t current;     /* of what the renderer has, */
+    uint64_t picture;     /* and without what follows the picture (the hook post) */
     struct turner_rebuild *build; /* under way, or finished and not taken, or NULL */
     struct turner_rebuild *stale; /* those under way that nobody waits for */
     char *message;
@@ -62,29 +63,36 @@ static void set_message(struct turner_reload *reload, const char *message)
     reload->message = turner_strdup(message);
 }
 
-static void start(struct turner_reload *reload, struct turner_sources *sources)
+/* `picture` is the hash of what decides the picture's kernel. */
+static void start(struct turner_reload *reload, struct turner_sources *sources, uint64_t picture)
 {
     if (turner_rebuild_create(&reload->build, reload->renderer, copy_of(reload->scene), sources,
-                              reload->wanted, reload->options.no_cache,
-                              reload->preview.recorded) == TURNER_OK)
+                              reload->wanted, picture == reload->picture,
+                              reload->options.no_cache, reload->preview.recorded) == TURNER_OK) {
+        reload->build->picture = picture;
         return;
+    }
     set_message(reload, turner_message());
     reload->state = TURNER_RELOAD_BROKEN;
 }
 
-/* Everything that decides the kernel, and the values it begins with, but the renderer itself. */
-static uint64_t hash_of(const struct turner_reload *reload, const struct turner_sources *sources)
+static uint64_t add_kernel(uint64_t hash, const struct turner_shader_source *source,
+                           const struct turner_scene *scene)
 {
-    const uint64_t texts[2] = {turner_source_hash(&sources->picture),
-                               turner_source_hash(&sources->post)};
-    uint64_t hash = turner_hash_bytes(TURNER_HASH_START, texts, sizeof texts);
-    struct turner_constant constants[2 * TURNER_PARAM_WORDS];
+    uint64_t text = turner_source_hash(source);
+    struct turner_constant constants[TURNER_PARAM_WORDS];
     size_t count = 0;
-    enum turner_result result =
-        turner_params_constants(constants, &count, &sources->picture.params, reload->scene);
-    if (result == TURNER_OK)
-        turner_params_constants(constants, &count, &sources->post.params, reload->scene);
+    turner_params_constants(constants, &count, &source->params, scene);
+    hash = turner_hash_bytes(hash, &text, sizeof text);
     return turner_hash_bytes(hash, constants, count * sizeof *constants);
+}
+
+/* Everything that decides the kernels, and the values they begin with, but the renderer itself. */
+static uint64_t hash_of(const struct turner_reload *reload, const struct turner_sources *sources,
+                        uint64_t *picture)
+{
+    *picture = add_kernel(TURNER_HASH_START, &sources->picture, reload->scene);
+    return add_kernel(*picture, &sources->post, reload->scene);
 }
 
 /* Reads the files, and watches them as they are now. */
@@ -153,6 +161,7 @@ static void drop_stale(struct turner_reload *reload, bool all)
 static void look(struct turner_reload *reload)
 {
     struct turner_sources sources;
+    uint64_t picture = 0;
     enum turner_result result = read_sources(reload, &sources, turner_watch_now());
     reload->seconds = 0;
     if (result != TURNER_OK) {
@@ -160,7 +169,7 @@ static void look(struct turner_reload *reload)
         set_message(reload, turner_message());
         reload->state = TURNER_RELOAD_BROKEN;
     } else {
-        uint64_t text = hash_of(reload, &sources);
+        uint64_t text = hash_of(reload, &sources, &picture);
         bool same = text == reload->wanted; /* saved, but as it was */
         reload->wanted = text;
         if (text == reload->current) {
@@ -180,9 +189,9 @@ static void look(struct turner_reload *reload)
         reload->build = NULL;
     }
     if (reload->state == TURNER_RELOAD_BUILDING && !reload->build) {
-        if (reload->preview.visibility.pipeline)
+        if (reload->preview.visibility.pipeline && picture != reload->picture)
             read_previews(reload, &sources, false);
-        start(reload, &sources);
+        start(reload, &sources, picture);
     }
     turner_sources_destroy(&sources);
 }
@@ -276,9 +285,10 @@ static enum turner_result take(struct turner_reload *reload, struct turner_rebui
     if (build->post.wanted)
         TURNER_TRY(turner_post_create_buffers(&build->post, renderer->gpu, &build->post_kernel,
                                               scene));
-    if (renderer->accurate)
+    if (build->part_count > 1)
         TURNER_TRY(take_part(renderer->accurate, &build->parts[1], &build->kernel, scene));
-    TURNER_TRY(take_part(renderer, &build->parts[0], &build->kernel, scene));
+    if (build->part_count > 0)
+        TURNER_TRY(take_part(renderer, &build->parts[0], &build->kernel, scene));
     turner_post_destroy(renderer->gpu, &renderer->post);
     if (!build->post.wanted) /* else it knows */
         build->post.source = turner_source_hash(&build->sources.post);
@@ -286,6 +296,14 @@ static enum turner_result take(struct turner_reload *reload, struct turner_rebui
     renderer->source = build->kernel.source;
     build->post = (struct turner_post){0};
     return TURNER_OK;
+}
+
+static void take_lighting(struct turner_reload *reload, struct turner_rebuild *build)
+{
+    turner_lighting_destroy(reload->renderer->gpu, &reload->lighting);
+    reload->lighting = build->lighting;
+    build->lighting = (struct turner_lighting){0};
+    reload->preview.recorded = false;
 }
 
 enum turner_result turner_reload_swap(struct turner_reload *reload, struct turner_kernel *kernel,
@@ -299,13 +317,12 @@ enum turner_result turner_reload_swap(struct turner_reload *reload, struct turne
     reload->state = result == TURNER_OK ? TURNER_RELOAD_CURRENT : TURNER_RELOAD_BROKEN;
     if (result == TURNER_OK) {
         reload->current = build->text;
+        reload->picture = build->picture;
         turner_kernel_destroy(kernel);
         *kernel = build->kernel;
         build->kernel = (struct turner_kernel){0};
-        turner_lighting_destroy(reload->renderer->gpu, &reload->lighting);
-        reload->lighting = build->lighting;
-        build->lighting = (struct turner_lighting){0};
-        reload->preview.recorded = false;
+        if (build->part_count > 0)
+            take_lighting(reload, build);
     } else {
         set_message(reload, turner_message());
     }
@@ -348,7 +365,7 @@ static void prepare_previews(struct turner_reload *reload)
     reload->previews = false; /* what fails once does so again */
     read_previews(reload, &sources, true);
     if (sources.lighting.text && sources.visibility.text)
-        start(reload, &sources);
+        start(reload, &sources, 0);
     turner_sources_destroy(&sources);
 }
 
@@ -404,7 +421,7 @@ enum turner_result turner_reload_create(struct turner_reload **out,
     enum turner_result result = read_sources(reload, &sources, since);
     if (result == TURNER_OK && turner_source_hash(&sources.picture) == renderer->source &&
         turner_source_hash(&sources.post) == renderer->post.source)
-        reload->wanted = reload->current = hash_of(reload, &sources);
+        reload->wanted = reload->current = hash_of(reload, &sources, &reload->picture);
     else if (result == TURNER_OK)
         look(reload); /* it is so already */
     turner_sources_destroy(&sources);

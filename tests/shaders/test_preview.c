@@ -151,6 +151,30 @@ static void none_of_what_is_not_there(void **state)
     turner_image_destroy(&before);
 }
 
+/* The hook post makes no ray: the picture's kernel stays, which takes far longer to make, and so does
+ * what is remembered. Both at once are made. */
+static void post_alone(void **state)
+{
+    (void)state;
+    struct turner_image image = drawn();
+    rest();
+    VkPipeline pipeline = bench.renderer.program.pipeline;
+    saved("post.glsl", "vec3 user_post(vec3 c, vec2 p, vec2 s) { return 0.5 * c; }\n");
+    assert_false(preview(&image));
+    assert_int_equal(bench_settle(&bench), TURNER_RELOAD_READY);
+    assert_true(bench.renderer.post.wanted);
+    assert_ptr_equal(bench.renderer.program.pipeline, pipeline);
+    saved("post.glsl", "vec3 user_post(vec3 c, vec2 p, vec2 s) { return 0.25 * c; }\n");
+    saved("background.glsl", "vec3 user_background(vec3 d) { return vec3(0.5); }\n");
+    assert_true(preview(&image));
+    assert_float_equal(image.rgba[0], 0.5, 1e-6); /* before the new post */
+    assert_int_equal(bench_settle(&bench), TURNER_RELOAD_READY);
+    saved("post.glsl", NULL);
+    assert_int_equal(bench_settle(&bench), TURNER_RELOAD_READY);
+    assert_false(bench.renderer.post.wanted);
+    turner_image_destroy(&image);
+}
+
 /* What mirrors and glass show stays until the picture comes: the same hook in other words changes
  * nothing at all. */
 static void other_light_stays(void **state)
@@ -175,6 +199,7 @@ int main(void)
     const struct CMUnitTest plain[] = {
         cmocka_unit_test(previews_are_the_picture),
         cmocka_unit_test(none_of_what_is_not_there),
+        cmocka_unit_test(post_alone),
     };
     const struct CMUnitTest glossy[] = {
         cmocka_unit_test(other_light_stays),
