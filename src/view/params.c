@@ -107,26 +107,34 @@ static bool takes_too(const struct turner_against *against, const char *param)
            !against->options->keeps(against->options->user, param);
 }
 
+static void set(struct turner_session *session, const struct turner_param *param,
+                const struct turner_param_value *value)
+{
+    char text[TURNER_PARAM_VALUE];
+    turner_param_print(text, param, value);
+    turner_scene_set_param(&session->scene, param->name, text);
+    turner_painter_set_param(&session->painter, param->name, text);
+    if (takes_too(session->against, param->name))
+        turner_painter_set_param(&session->against->painter, param->name, text);
+    session->changed = session->moving = true;
+}
+
 void turner_session_params(struct turner_session *session, const struct turner_ui *ui)
 {
+    struct turner_param_value value;
     look(session);
+    for (size_t i = 0; i < session->params.count; i++) {
+        const struct turner_param *param = &session->params.at[i];
+        if (turner_param_of_scene(&value, param, &session->scene) != TURNER_OK)
+            set(session, param, &param->standard); /* the shader takes others by now */
+    }
     if (!session->params.count || !ui->section("Shader parameters", true))
         return;
     for (size_t i = 0; i < session->params.count; i++) {
         const struct turner_param *param = &session->params.at[i];
-        struct turner_param_value value;
-        char text[TURNER_PARAM_VALUE];
-        bool unfit = turner_param_of_scene(&value, param, &session->scene) != TURNER_OK;
-        if (unfit) /* the shader takes others by now */
-            value = param->standard;
-        if (change(ui, &value, param) || unfit) {
-            turner_param_print(text, param, &value);
-            turner_scene_set_param(&session->scene, param->name, text);
-            turner_painter_set_param(&session->painter, param->name, text);
-            if (takes_too(session->against, param->name))
-                turner_painter_set_param(&session->against->painter, param->name, text);
-            session->changed = session->moving = true;
-        }
+        if (turner_param_of_scene(&value, param, &session->scene) == TURNER_OK &&
+            change(ui, &value, param))
+            set(session, param, &value);
         ui->note(param->text);
     }
 }
