@@ -193,7 +193,8 @@ struct turner_estimate turner_estimate_pixel(const struct turner_cells *cells,
  * and count it as one; and a kink hides nothing. */
 float turner_estimate_shared(const struct turner_estimate *estimate, bool divided)
 {
-    return (divided ? POOL : POOL_WHOLE) * hypotf(estimate->edges, estimate->hidden);
+    return (divided ? POOL : POOL_WHOLE) * hypotf(estimate->edges, estimate->hidden) +
+           POOL * estimate->methods;
 }
 
 static int compare_floats(const void *a, const void *b)

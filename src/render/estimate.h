@@ -42,7 +42,7 @@ struct turner_estimate turner_estimate_pixel(const struct turner_cells *cells,
                                              const struct turner_scale *scale);
 
 /* What a pixel tells those beside it to count with at least: an edge that it has may go on there,
- * unmet. Less where it was not `divided` for what it has. */
+ * unmet, and so may what approximations do. Less of edges where it was not `divided` for them. */
 float turner_estimate_shared(const struct turner_estimate *estimate, bool divided);
 
 /* Estimates of all pixels of a picture (width × height) are raised to what at least two beside each
