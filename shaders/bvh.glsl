@@ -47,7 +47,7 @@ void traverse(inout search_t search, ray_t ray)
                 continue; // missed, or no child there: node 0 is nobody's child
             if (items != 0u && !top) {
                 for (uint i = 0; i < items && !search.blocked; i++)
-                    intersect_primitive(search, primitive_array(scene.primitives).at[first + i],
+                    intersect_primitive(search, primitive_of(first + i),
                                         first + i, instance, override_material, origin, direction,
                                         shear);
             } else {

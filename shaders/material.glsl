@@ -2,7 +2,7 @@
 
 turner_gpu_material material_at(surface_t surface)
 {
-    turner_gpu_material material = material_array(scene.materials).at[surface.material];
+    turner_gpu_material material = material_of(surface.material);
     real2 uv = surface.uv * material.uv_scale;
     vec3 pattern = vec3(1.0);
     if (NEEDS_ANY(TURNER_NEEDS_CHECKER) && material.pattern == TURNER_PATTERN_KIND_CHECKER) {

@@ -15,35 +15,29 @@ uint media_current(uint64_t list)
     return media_slot(list, 0u);
 }
 
-uint64_t media_add(uint64_t list, uint medium)
+// How many of the list are at least `medium`: where it would be put behind its equals.
+uint media_place(uint64_t list, uint medium)
 {
+    uvec2 slots = unpackUint2x32(list);
     uint place = 0u;
-    while (place < 8u && media_slot(list, place) >= medium)
-        place++;
+    for (uint shift = 0u; shift < 32u; shift += 8u)
+        place += uint(((slots.x >> shift) & 255u) >= medium) +
+                 uint(((slots.y >> shift) & 255u) >= medium);
+    return place;
+}
+
+uint64_t media_add(uint64_t list, uint place, uint medium)
+{
     if (place == 8u)
-        return list; // full of higher ones: the lowest is dropped
-    uint64_t above = (1ul << (8u * place)) - 1ul;
-    return (list & above) | (uint64_t(medium) << (8u * place)) | ((list & ~above) << 8u);
+        return list; // full of higher ones; otherwise what is last of eight is dropped
+    uint64_t before = (1ul << (8u * place)) - 1ul;
+    return (list & before) | (uint64_t(medium) << (8u * place)) | ((list & ~before) << 8u);
 }
 
-// The list without one `medium`; the list as it is when there is none.
-uint64_t media_remove(uint64_t list, uint medium)
+uint64_t media_remove(uint64_t list, uint place)
 {
-    for (uint place = 0u; place < 8u; place++) {
-        if (media_slot(list, place) == medium) {
-            uint64_t above = (1ul << (8u * place)) - 1ul;
-            return (list & above) | ((list >> 8u) & ~above);
-        }
-    }
-    return list;
-}
-
-bool media_contains(uint64_t list, uint medium)
-{
-    bool found = false;
-    for (uint place = 0u; place < 8u; place++)
-        found = found || media_slot(list, place) == medium;
-    return found;
+    uint64_t before = (1ul << (8u * place)) - 1ul;
+    return (list & before) | ((list >> 8u) & ~before);
 }
 
 // Crossing the boundary of a medium: the lists on the side the ray comes from and beyond. The
@@ -55,15 +49,13 @@ struct crossing_t {
 
 crossing_t media_cross(uint64_t list, uint medium, bool entering)
 {
+    uint place = media_place(list, medium), first = media_place(list, medium + 1u);
+    uint64_t added = media_add(list, place, medium);
     crossing_t crossing;
-    if (entering) {
-        crossing.before = list;
-        crossing.after = media_add(list, medium);
-    } else {
-        // leaving what was never entered counts as having been inside
-        crossing.before = media_contains(list, medium) ? list : media_add(list, medium);
-        crossing.after = media_remove(crossing.before, medium);
-    }
+    // leaving what was never entered counts as having been inside
+    bool inside = first < place;
+    crossing.before = entering || inside ? list : added;
+    crossing.after = entering ? added : first < 8u ? media_remove(crossing.before, first) : list;
     crossing.boundary = media_current(crossing.before) != media_current(crossing.after);
     return crossing;
 }

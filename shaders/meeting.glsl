@@ -74,8 +74,7 @@ bool next_light(inout shading_t shading, out ray_t ray, out vec3 light)
 {
     while (shading.light < scene.light_count) {
         uint index = shading.light++;
-        arrival_t arrival = user_light(light_array(scene.lights).at[index], index,
-                                       shading.surface.point);
+        arrival_t arrival = user_light(light_of(index), index, shading.surface.point);
         RECORD(record_light(shading, index, arrival));
         if (!(dot(shading.N, arrival.direction) > 0.0) || arrival.irradiance == vec3(0.0))
             continue;

@@ -6,11 +6,6 @@
 // leaf comes up, leaves until a node comes up, and at the top level instances between.
 #include "boxes.glsl"
 
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer word_array
-{
-    uint64_t at[];
-};
-
 const uint LANES = 8u;
 const uint ASIDE = BVH_STACK / LANES; // registers put aside, at most
 const int MISSED = 0x7fffffff; // the key of a box that no lane meets; others are bits of floats

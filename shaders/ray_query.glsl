@@ -38,7 +38,7 @@ void traverse(inout search_t search, ray_t ray)
                 }
             }
             float before = search.hit.t;
-            intersect_primitive(search, primitive_array(scene.primitives).at[index], index,
+            intersect_primitive(search, primitive_of(index), index,
                                 instance, override_material, origin, direction, shear);
             if (search.blocked)
                 return;

@@ -75,7 +75,7 @@ turner_gpu_ray sent_ray(ray_t ray, hit_t hit, uint index)
     surface_t surface = surface_of(ray, hit);
     real3 ng = dot(surface.ng, ray.direction) > 0.0 ? -surface.ng : surface.ng;
     if (dispatch.first == TURNER_SEND_SHADOW) {
-        arrival_t light = light_arrival(light_array(scene.lights).at[0], surface.point);
+        arrival_t light = light_arrival(light_of(0u), surface.point);
         if (!(dot(ng, light.direction) > 0.0))
             return NO_RAY;
         return listed(spawn_ray(surface, light.direction, light.distance), TURNER_RAY_ANY);

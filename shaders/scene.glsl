@@ -35,16 +35,12 @@ layout(push_constant, scalar) uniform dispatch_block { turner_gpu_dispatch dispa
         type at[];                                                                                 \
     }
 
-TURNER_ARRAY(primitive_array, turner_gpu_primitive);
 TURNER_ARRAY(instance_array, turner_gpu_instance);
-TURNER_ARRAY(plane_array, turner_gpu_plane);
 TURNER_ARRAY(corner_array, turner_gpu_corners);
 TURNER_ARRAY(vec3_array, vec3);
 TURNER_ARRAY(vec2_array, vec2);
-TURNER_ARRAY(material_array, turner_gpu_material);
 TURNER_ARRAY(medium_array, turner_gpu_medium);
 TURNER_ARRAY(image_array, turner_gpu_image);
-TURNER_ARRAY(light_array, turner_gpu_light);
 TURNER_ARRAY(primitive_rest_array, turner_gpu_primitive_rest);
 TURNER_ARRAY(instance_rest_array, turner_gpu_instance_rest);
 
@@ -52,7 +48,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer sce
 {
     turner_gpu_scene the;
 };
-// Read once, by main(): a load through an address is a gather for every lane.
+// Read once, by main(): a load through an address is a gather.
 turner_gpu_scene scene;
 
 // Values of the parameters that //!PARAM lines declare (docs/shaders.md); what such a line becomes.
@@ -80,6 +76,8 @@ const float PI = 3.14159265358979;
 #else
 #define EXACT(T, value, rest) (value)
 #endif
+
+#include "load.glsl"
 
 struct ray_t {
     real3 origin;
@@ -125,20 +123,14 @@ shape_t shape_of(turner_gpu_primitive p, uint index)
 // The maps of an instance, 3 rows of 4.
 real[12] to_world_of(uint instance)
 {
-    real m[12];
-    for (int i = 0; i < 12; i++)
-        m[i] = EXACT(real, instance_array(scene.instances).at[instance].to_world[i],
-                     instance_rest_array(scene.instance_rests).at[instance].to_world[i]);
-    return m;
+    return map_at(uint64_t(instance_block(scene.instances) + instance),
+                  uint64_t(instance_rest_block(scene.instance_rests) + instance));
 }
 
 real[12] to_group_of(uint instance)
 {
-    real m[12];
-    for (int i = 0; i < 12; i++)
-        m[i] = EXACT(real, instance_array(scene.instances).at[instance].to_group[i],
-                     instance_rest_array(scene.instance_rests).at[instance].to_group[i]);
-    return m;
+    return map_at(uint64_t(instance_block(scene.instances) + instance) + 48ul,
+                  uint64_t(instance_rest_block(scene.instance_rests) + instance) + 48ul);
 }
 
 real3 transform_vector(real m[12], real3 v)

@@ -169,12 +169,13 @@ TURNER_STRUCT(turner_gpu_instance_rest)
 TURNER_STRUCT(turner_gpu_plane)
 {
     TURNER_VEC3(point);
-    TURNER_VEC3(point_rest);
     TURNER_VEC3(normal);
-    TURNER_VEC3(normal_rest);
     TURNER_VEC3(tangent);
-    TURNER_VEC3(tangent_rest);
     uint material;
+    TURNER_VEC3(point_rest);
+    TURNER_VEC3(normal_rest);
+    TURNER_VEC3(tangent_rest);
+    uint pad;
 };
 
 /* ---- appearance ---- */
@@ -228,14 +229,15 @@ TURNER_STRUCT(turner_gpu_image)
 TURNER_STRUCT(turner_gpu_light)
 {
     TURNER_VEC3(position);
-    TURNER_VEC3(position_rest);
     TURNER_VEC3(direction); /* the way the light travels */
-    TURNER_VEC3(direction_rest);
     TURNER_VEC3(power);
     uint kind;
     uint inverse_square; /* 1 or 0 */
     float cos_inner;
     float cos_outer;
+    uint pad;
+    TURNER_VEC3(position_rest);
+    TURNER_VEC3(direction_rest);
 };
 
 #define TURNER_BACKGROUND_KIND_CONSTANT 0u

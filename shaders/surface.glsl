@@ -89,7 +89,7 @@ void surface_of_triangle(inout surface_t surface, shape_t triangle, uint attribu
 
 surface_t surface_of_plane(ray_t ray, hit_t hit)
 {
-    turner_gpu_plane plane = plane_array(scene.planes).at[hit.primitive];
+    turner_gpu_plane plane = plane_of(hit.primitive);
     real3 point = EXACT(real3, plane.point, plane.point_rest);
     real3 normal = EXACT(real3, plane.normal, plane.normal_rest);
     real3 tangent = EXACT(real3, plane.tangent, plane.tangent_rest);
@@ -113,7 +113,7 @@ surface_t surface_of(ray_t ray, hit_t hit)
         return surface_of_plane(ray, hit);
 
     surface_t surface;
-    turner_gpu_primitive primitive = primitive_array(scene.primitives).at[hit.primitive];
+    turner_gpu_primitive primitive = primitive_of(hit.primitive);
     shape_t shape = shape_of(primitive, hit.primitive);
     uint material = primitive.material;
     real3 origin = ray.origin, direction = ray.direction;

@@ -89,11 +89,11 @@ bool goes_on(bool work)
 
 void intersect_planes(inout search_t search, ray_t ray)
 {
-    plane_array planes = plane_array(scene.planes);
     for (uint i = 0; i < scene.plane_count && !search.blocked; i++) {
-        real t = intersect_plane(ray.origin, ray.direction, planes.at[i]);
+        turner_gpu_plane plane = plane_of(i);
+        real t = intersect_plane(ray.origin, ray.direction, plane);
         consider(search, t, (TURNER_KIND_PLANE << TURNER_KIND_SHIFT) | i, i, 0u, real2(0.0),
-                 planes.at[i].material);
+                 plane.material);
     }
 }
 

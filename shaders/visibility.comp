@@ -39,7 +39,7 @@ void note(inout turner_gpu_visible visible, surface_t surface, ray_t ray, float 
     visible.material = surface.material;
     if (surface.transmissive)
         visible.material |= TURNER_MATERIAL_TRANSMISSIVE;
-    uint medium = material_array(scene.materials).at[surface.material].medium;
+    uint medium = material_of(surface.material).medium;
     crossing_t crossing = media_meet(scene.inside, surface.transmissive, medium + 1u,
                                      dot(ray.direction, surface.ng) < 0.0);
     visible.weight = crossing.boundary ? media_transmittance(crossing.before, t) : vec3(0.0);
@@ -66,7 +66,7 @@ turner_gpu_visible visible_to(ray_t ray, bool busy)
             busy = false;
         }
         if (busy && turn < lights) {
-            arrival_t arrival = light_arrival(light_array(scene.lights).at[turn], surface.point);
+            arrival_t arrival = light_arrival(light_of(turn), surface.point);
             ray = spawn_ray(surface, arrival.direction, arrival.distance);
         }
     }
