@@ -245,19 +245,29 @@ void visit(inout walk_t walk, boxes_ray_t ray, int t_max, bool by_beam, beam_t b
 bool is_node(uint entry) { return int(entry) > 0; }
 bool is_leaf(uint entry) { return int(entry) < 0; }
 
-// Down to a leaf, or the end.
+// A visit takes one from the registers at most and adds three at most.
+bool has_room(walk_t walk)
+{
+    return walk.height - 1u < 2u * LANES - 4u;
+}
+
+void make_sure_of_room(inout walk_t walk)
+{
+    if (!has_room(walk)) {
+        if (walk.height == 0u)
+            take_back(walk);
+        else
+            make_room(walk);
+    }
+}
+
+// Down to a leaf, or the end, or until there is no room.
 void walk_nodes(inout walk_t walk, boxes_ray_t ray, int t_max, bool by_beam, beam_t beam)
 {
     do {
-        if (walk.height - 1u >= 2u * LANES - 4u) {
-            if (walk.height == 0u)
-                take_back(walk);
-            else
-                make_room(walk); // for four
-        }
         visit(walk, ray, t_max, by_beam, beam);
         walk.visits++;
-    } while (is_node(walk.next) && walk.visits < scene.max_visits);
+    } while (is_node(walk.next) && has_room(walk) && walk.visits < scene.max_visits);
 }
 
 // What a lane still looks for lies nearer than this.
@@ -310,13 +320,14 @@ void walk_group(inout search_t search, uint root, uint instance, uint override_m
     beam_t beam = beam_of(boxes, vec3(direction), float(search.hit.t), t_max >= 0);
     walk_t walk = walk_from(root, 0u);
     do {
+        make_sure_of_room(walk);
         if (beam.possible)
             walk_nodes(walk, boxes, beam.reach != 0 ? beam.reach : ~least_of_lanes(~t_max), true,
                        beam);
         else
             walk_nodes(walk, boxes, t_max, false, beam);
         do {
-            if (walk.next != 0u) {
+            if (is_leaf(walk.next)) {
                 uint index = walk.next & TURNER_WIDE_FIRST;
                 uint end = index + ((walk.next & ~LEAF) >> TURNER_WIDE_COUNT_SHIFT) + 1u;
                 do {
@@ -326,7 +337,7 @@ void walk_group(inout search_t search, uint root, uint instance, uint override_m
                 } while (index < end);
             }
             t_max = t_max_of(search);
-            if (walk.next != 0u)
+            if (is_leaf(walk.next))
                 take(walk, search);
         } while (is_leaf(walk.next));
     } while (walk.next != 0u && walk.visits < scene.max_visits);
@@ -344,9 +355,10 @@ void traverse(inout search_t search, ray_t ray)
     int t_max = t_max_of(search);
     walk_t walk = walk_from(scene.root, ASIDE);
     do {
+        make_sure_of_room(walk);
         walk_nodes(walk, boxes, t_max, false, none);
         do {
-            if (walk.next != 0u) {
+            if (is_leaf(walk.next)) {
                 uint instance = walk.next & TURNER_WIDE_FIRST;
                 real[12] to_group = to_group_of(instance);
                 walk_group(search, instances.at[instance].root, instance,
@@ -355,7 +367,7 @@ void traverse(inout search_t search, ray_t ray)
                            transform_vector(to_group, ray.direction));
             }
             t_max = t_max_of(search);
-            if (walk.next != 0u)
+            if (is_leaf(walk.next))
                 take(walk, search);
         } while (is_leaf(walk.next));
     } while (walk.next != 0u && walk.visits < scene.max_visits);

@@ -11,6 +11,43 @@ struct path_t { // a ray that carries light to the picture
     uint64_t media;
 };
 
+// A path on the stack, in words of 64 bits: each part of an array's element is stored for every lane
+// by itself. t_max is left out, as those that wait go on for ever.
+#ifdef TURNER_F64
+#define waiting_t path_t
+#define put_away(path) path
+#define take_up(path) path
+#else
+struct waiting_t {
+    uint64_t a, b, c, d, e, media;
+    uint depth;
+};
+
+uint64_t both(float x, float y)
+{
+    return packUint2x32(floatBitsToUint(vec2(x, y)));
+}
+
+vec2 apart(uint64_t word)
+{
+    return uintBitsToFloat(unpackUint2x32(word));
+}
+
+waiting_t put_away(path_t path)
+{
+    vec3 o = path.ray.origin, d = path.ray.direction, w = path.weight;
+    return waiting_t(both(o.x, o.y), both(o.z, path.ray.start), both(d.x, d.y), both(d.z, w.x),
+                     both(w.y, w.z), path.media, path.depth);
+}
+
+path_t take_up(waiting_t w)
+{
+    vec2 b = apart(w.b), d = apart(w.d);
+    return path_t(ray_t(vec3(apart(w.a), b.x), vec3(apart(w.c), d.x), INFINITY, b.y),
+                  vec3(d.y, apart(w.e)), w.depth, w.media);
+}
+#endif
+
 struct secondary_t { // what a surface sends on
     real3 reflected, refracted; // directions
     vec3 w_r, w_t;              // weights relative to the ray that came
@@ -119,7 +156,7 @@ vec4 whitted(ray_t camera, bool busy, inout turner_gpu_counters counts)
     path_t path = path_t(camera, vec3(1.0), 0u, scene.inside);
     path_t next;
     bool has_next = false;
-    path_t stack[STACK];
+    waiting_t stack[STACK];
     uint height = 0u;
 
     shading_t shading;
@@ -202,7 +239,7 @@ vec4 whitted(ray_t camera, bool busy, inout turner_gpu_counters counts)
                     if (!has_next)
                         next = beyond;
                     else if (NEEDS_ANY(TURNER_NEEDS_BRANCHING))
-                        stack[height++] = beyond;
+                        stack[height++] = put_away(beyond);
                     has_next = true;
                 }
             }
@@ -222,7 +259,7 @@ vec4 whitted(ray_t camera, bool busy, inout turner_gpu_counters counts)
                 path = next;
                 has_next = false;
             } else if (NEEDS_ANY(TURNER_NEEDS_BRANCHING) && height > 0u) {
-                path = stack[--height];
+                path = take_up(stack[--height]);
             } else {
                 busy = false;
             }

@@ -171,8 +171,8 @@ def free():
             ("whitted.glsl", (("user_background(", "background("),)),
             ("meeting.glsl", (("user_surface(met.material, met.surface.ns, met.surface);", ""),
                               ("user_brdf(", "local_illumination("),
-                              ("user_light(light_array(scene.lights).at[index], index,",
-                               "light_arrival(light_array(scene.lights).at[index],")))):
+                              ("user_light(light_of(index), index,",
+                               "light_arrival(light_of(index),")))):
         text = (SOURCE / "shaders" / file).read_text()
         for old, new in parts:
             assert text.count(old) == 1, f"{file} has changed: {old}"
