@@ -66,18 +66,39 @@ void add_counts(turner_gpu_counters counts)
         atomicMax(total.the.largest_depth, depth);
 }
 
+// a / b for what is below 2^22: a quotient of integers is made lane by lane.
+uint quotient(uint a, uint b)
+{
+    return uint((float(a) + 0.5) / float(b));
+}
+
+// The place of this workgroup among all. A CPU device deals them out to its threads beforehand, in
+// consecutive pieces of which one may have all the sky; so places are taken in turn for the pieces.
+uvec2 workgroup_place()
+{
+    uint width = gl_NumWorkGroups.x, i = gl_WorkGroupID.y * width + gl_WorkGroupID.x;
+    uint pieces = max(dispatch.pieces, 1u);
+    uint size = quotient(width * gl_NumWorkGroups.y, pieces);
+    if (i < size * pieces) {
+        uint piece = quotient(i, size);
+        i = (i - piece * size) * pieces + piece;
+    }
+    uint row = quotient(i, width);
+    return uvec2(i - row * width, row);
+}
+
 // The sample of this lane, or false where there is none: its place in the picture and in `pixels`.
 bool sample_of_lane(out vec2 position, out uint index)
 {
     position = vec2(0.0);
     if (dispatch.positions != 0ul) {
-        index = gl_WorkGroupID.x * (TURNER_WORKGROUP * TURNER_WORKGROUP) + gl_LocalInvocationIndex;
+        index = workgroup_place().x * (TURNER_WORKGROUP * TURNER_WORKGROUP) + gl_LocalInvocationIndex;
         if (index >= dispatch.count)
             return false;
         position = position_array(dispatch.positions).at[index];
         return true;
     }
-    uvec2 pixel = gl_WorkGroupID.xy * TURNER_WORKGROUP + morton(gl_LocalInvocationIndex);
+    uvec2 pixel = workgroup_place() * TURNER_WORKGROUP + morton(gl_LocalInvocationIndex);
     index = pixel.y * dispatch.tile_width + pixel.x;
     position = vec2(uvec2(dispatch.tile_x, dispatch.tile_y) + pixel) +
                vec2(dispatch.sample_x, dispatch.sample_y);

@@ -339,6 +339,8 @@ TURNER_STRUCT(turner_gpu_dispatch)
     uint count;
     uint max_depth;
     float cutoff;
+    uint pieces; /* that the device makes of the workgroups, consecutive ones, for its threads; 0 and
+                    1: none */
 };
 
 /* What the ray through a pixel's centre meets, and the lights that are seen from there

@@ -48,7 +48,7 @@ static void describe(struct turner_chart *chart, const struct turner_gpu_info *i
 {
     snprintf(chart->device, sizeof chart->device, "%s", info->name);
     snprintf(chart->driver, sizeof chart->driver, "%s", info->driver);
-    chart->threads = turner_machine_threads();
+    chart->threads = (int)turner_gpu_cpu_threads();
     turner_machine_cpu(chart->cpu, sizeof chart->cpu);
 }
 

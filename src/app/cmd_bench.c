@@ -263,7 +263,7 @@ static enum turner_result run_own(struct arguments *a)
 enum turner_result turner_cmd_bench(int argc, char **argv)
 {
     struct arguments a = {.bench = {.width = 1024, .height = 1024, .rounds = 7,
-                                    .threads = turner_machine_threads()}};
+                                    .threads = (int)turner_gpu_cpu_threads()}};
     enum turner_result result = parse(&a, argc, argv);
     if (result == TURNER_OK && a.help)
         print_help();

@@ -1,17 +1,7 @@
 #include "app/machine.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-int turner_machine_threads(void)
-{
-    const char *limit = getenv("LP_NUM_THREADS"); /* of Mesa's CPU device */
-    long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    int threads = limit ? atoi(limit) : 0;
-    return threads > 0 ? threads : cores > 0 ? (int)cores : 1;
-}
 
 void turner_machine_cpu(char *cpu, size_t size)
 {

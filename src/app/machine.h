@@ -4,9 +4,6 @@
 
 #include <stddef.h>
 
-/* Threads that Mesa's CPU device has: one per core, or LP_NUM_THREADS. */
-int turner_machine_threads(void);
-
 /* The processor's name as the system has it; left as it is where that cannot be read. */
 void turner_machine_cpu(char *cpu, size_t size);
 

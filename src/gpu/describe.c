@@ -1,9 +1,13 @@
+#define _GNU_SOURCE /* sched_getaffinity */
+#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "gpu/internal.h"
+
+#define MOST_THREADS 32 /* llvmpipe has no more */
 
 const char *const turner_ray_query_extensions[] = {
     VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
@@ -12,6 +16,16 @@ const char *const turner_ray_query_extensions[] = {
 };
 const uint32_t turner_ray_query_extension_count =
     sizeof turner_ray_query_extensions / sizeof *turner_ray_query_extensions;
+
+uint32_t turner_gpu_cpu_threads(void)
+{
+    const char *wanted = getenv("LP_NUM_THREADS");
+    cpu_set_t cores;
+    int threads = wanted ? atoi(wanted) : 0;
+    if (!wanted && sched_getaffinity(0, sizeof cores, &cores) == 0)
+        threads = CPU_COUNT(&cores);
+    return threads < 1 ? 1 : threads < MOST_THREADS ? (uint32_t)threads : MOST_THREADS;
+}
 
 /* Whether `name` is an item of a comma separated list. */
 static bool listed(const char *list, const char *name)
@@ -154,6 +168,7 @@ enum turner_result turner_gpu_describe(struct turner_gpu_info *info, VkPhysicalD
     snprintf(info->name, sizeof info->name, "%s", basic.deviceName);
     info->type = type_name(basic.deviceType);
     info->software = basic.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    info->threads = info->software ? turner_gpu_cpu_threads() : 1;
     memcpy(info->max_workgroup_size, basic.limits.maxComputeWorkGroupSize,
            sizeof info->max_workgroup_size);
     memcpy(info->max_workgroup_count, basic.limits.maxComputeWorkGroupCount,

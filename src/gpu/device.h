@@ -14,6 +14,7 @@ struct turner_gpu_info {
     char driver[512];  /* driver's name and version, as the driver words it */
     const char *type;  /* "discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other" */
     bool software;     /* a CPU pretending */
+    uint32_t threads;  /* of software; 1 of others */
     bool usable;       /* has everything turner requires */
     char lacking[256]; /* what it lacks of that, comma separated; "" when usable */
     bool ray_query;    /* can trace with VK_KHR_ray_query */
@@ -68,6 +69,9 @@ struct turner_gpu {
  * that no device has. */
 enum turner_result turner_gpu_create(struct turner_gpu *gpu, const char *wanted, bool validation);
 void turner_gpu_destroy(struct turner_gpu *gpu);
+
+/* Threads that Mesa's CPU device has: one per core this process may use, or LP_NUM_THREADS. */
+uint32_t turner_gpu_cpu_threads(void);
 
 /* Every device with a Vulkan driver, usable or not, in the order of its index. The caller frees
  * *infos. Not while a turner_gpu exists. TURNER_DEVICE without a driver or a device. */

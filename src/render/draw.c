@@ -42,6 +42,7 @@ static struct turner_gpu_dispatch dispatch_of(const struct turner_renderer *rend
         .first = 1,
         .max_depth = (uint32_t)renderer->settings.depth,
         .cutoff = (float)renderer->settings.cutoff,
+        .pieces = renderer->gpu->info.threads,
     };
 }
 
