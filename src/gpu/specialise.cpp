@@ -70,7 +70,14 @@ static enum turner_result run(struct turner_spirv *out, const struct turner_spir
         .RegisterPass(spvtools::CreateCCPPass())
         .RegisterPass(spvtools::CreateDeadBranchElimPass())
         .RegisterPass(spvtools::CreateAggressiveDCEPass())
-        .RegisterPass(spvtools::CreateBlockMergePass());
+        .RegisterPass(spvtools::CreateBlockMergePass())
+        /* Once more, with what is left of structures in parts: a twentieth of a warm start. */
+        .RegisterPass(spvtools::CreatePrivateToLocalPass())
+        .RegisterPass(spvtools::CreateScalarReplacementPass(0))
+        .RegisterPass(spvtools::CreateLocalAccessChainConvertPass())
+        .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
+        .RegisterPass(spvtools::CreateLocalSingleStoreElimPass())
+        .RegisterPass(spvtools::CreateAggressiveDCEPass());
     if (optimise)
         optimizer.RegisterPerformancePasses();
     spvtools::OptimizerOptions options;
