@@ -73,6 +73,10 @@ struct beam_t {
 // Of rays that are followed backward: how far apart they may be, as a share of their length.
 const float APART = 0.01;
 
+// A packet that has tested as many primitives goes on ray by ray: where they are smaller than the
+// distance between rays, most of what lies between is met by none.
+const uint FEW = 12u;
+
 float least_of_lanes(float v)
 {
     v = min(v, subgroupShuffleXor(v, 1u));
@@ -319,9 +323,10 @@ void walk_group(inout search_t search, uint root, uint instance, uint override_m
     int t_max = t_max_of(search);
     beam_t beam = beam_of(boxes, vec3(direction), float(search.hit.t), t_max >= 0);
     walk_t walk = walk_from(root, 0u);
+    uint tested = 0u;
     do {
         make_sure_of_room(walk);
-        if (beam.possible)
+        if (beam.possible && tested < FEW)
             walk_nodes(walk, boxes, beam.reach != 0 ? beam.reach : ~least_of_lanes(~t_max), true,
                        beam);
         else
@@ -330,6 +335,7 @@ void walk_group(inout search_t search, uint root, uint instance, uint override_m
             if (is_leaf(walk.next)) {
                 uint index = walk.next & TURNER_WIDE_FIRST;
                 uint end = index + ((walk.next & ~LEAF) >> TURNER_WIDE_COUNT_SHIFT) + 1u;
+                tested += end - index;
                 do {
                     intersect_primitive(search, primitive_of_lanes(index), index, instance,
                                         override_material, origin, direction, shear);
