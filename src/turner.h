@@ -132,8 +132,9 @@ struct turner_statistics {
     uint64_t host_peak_bytes, device_peak_bytes;
     uint32_t needs;           /* TURNER_NEEDS_… that were compiled in */
     size_t kernel_words;      /* size of the kernel's SPIR-V before specialisation */
-    bool source_cached, kernel_cached; /* the cache had the SPIR-V of the shaders, and of the kernel
-                                          specialised to the scene */
+    /* The cache had the SPIR-V of the shaders, that of the kernel specialised to the scene, and what the
+     * driver makes of it (of devices of software; others keep that themselves). */
+    bool source_cached, kernel_cached, driver_cached;
     size_t primitives, instances;
 };
 

@@ -126,6 +126,7 @@ static cJSON *statistics_object(const struct turner_scene *scene,
     cJSON *cached = cJSON_AddObjectToObject(object, "cached");
     cJSON_AddBoolToObject(cached, "source", s->source_cached);
     cJSON_AddBoolToObject(cached, "kernel", s->kernel_cached);
+    cJSON_AddBoolToObject(cached, "driver", s->driver_cached);
 
     cJSON *bytes = cJSON_AddObjectToObject(object, "peak_bytes");
     add_count(bytes, "host", s->host_peak_bytes);

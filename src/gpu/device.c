@@ -138,11 +138,33 @@ static enum turner_result choose(uint32_t *chosen, const struct turner_gpu_info 
     return turner_fail(TURNER_USAGE, "no device \"%s\"; those here are %s", wanted, names);
 }
 
+#define LOAD(field, name) gpu->field = (PFN_##name)vkGetDeviceProcAddr(gpu->device, #name)
+static void load_ray_query_functions(struct turner_gpu *gpu)
+{
+    LOAD(create_acceleration, vkCreateAccelerationStructureKHR);
+    LOAD(destroy_acceleration, vkDestroyAccelerationStructureKHR);
+    LOAD(get_acceleration_sizes, vkGetAccelerationStructureBuildSizesKHR);
+    LOAD(get_acceleration_address, vkGetAccelerationStructureDeviceAddressKHR);
+    LOAD(cmd_build_accelerations, vkCmdBuildAccelerationStructuresKHR);
+}
+
+static void load_shader_object_functions(struct turner_gpu *gpu)
+{
+    LOAD(create_shaders, vkCreateShadersEXT);
+    LOAD(destroy_shader, vkDestroyShaderEXT);
+    LOAD(get_shader_binary, vkGetShaderBinaryDataEXT);
+    LOAD(cmd_bind_shaders, vkCmdBindShadersEXT);
+}
+#undef LOAD
+
 static enum turner_result create_device(struct turner_gpu *gpu)
 {
     struct turner_extensions extensions;
     enum turner_result result = turner_extensions_create(&extensions, gpu->physical);
     gpu->memory_budget = turner_extensions_have(&extensions, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+    /* validation layers before 1.3.246 know no shader objects */
+    bool objects = gpu->info.software && !gpu->messenger &&
+                   turner_extensions_have(&extensions, VK_EXT_SHADER_OBJECT_EXTENSION_NAME);
     turner_extensions_destroy(&extensions);
     TURNER_TRY(result);
 
@@ -152,6 +174,8 @@ static enum turner_result create_device(struct turner_gpu *gpu)
         names[count++] = turner_ray_query_extensions[i];
     if (gpu->memory_budget)
         names[count++] = VK_EXT_MEMORY_BUDGET_EXTENSION_NAME;
+    if (objects)
+        names[count++] = VK_EXT_SHADER_OBJECT_EXTENSION_NAME;
 
     VkPhysicalDeviceRayQueryFeaturesKHR query = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR,
@@ -162,9 +186,14 @@ static enum turner_result create_device(struct turner_gpu *gpu)
         .pNext = &query,
         .accelerationStructure = VK_TRUE,
     };
+    VkPhysicalDeviceShaderObjectFeaturesEXT object = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_OBJECT_FEATURES_EXT,
+        .pNext = gpu->info.ray_query ? &acceleration : NULL,
+        .shaderObject = VK_TRUE,
+    };
     VkPhysicalDeviceVulkan13Features vulkan13 = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
-        .pNext = gpu->info.ray_query ? &acceleration : NULL,
+        .pNext = objects ? &object : object.pNext,
         .maintenance4 = VK_TRUE, /* local size by specialisation constant */
         .computeFullSubgroups = gpu->info.packets,
     };
@@ -198,6 +227,10 @@ static enum turner_result create_device(struct turner_gpu *gpu)
     };
     VK_TRY(vkCreateDevice(gpu->physical, &create, NULL, &gpu->device));
     vkGetDeviceQueue(gpu->device, gpu->queue_family, 0, &gpu->queue);
+    if (gpu->info.ray_query)
+        load_ray_query_functions(gpu);
+    if (objects)
+        load_shader_object_functions(gpu);
 
     VkCommandPoolCreateInfo pool = {
         .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
@@ -208,17 +241,6 @@ static enum turner_result create_device(struct turner_gpu *gpu)
     VkFenceCreateInfo fence = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     VK_TRY(vkCreateFence(gpu->device, &fence, NULL, &gpu->fence));
     return TURNER_OK;
-}
-
-static void load_ray_query_functions(struct turner_gpu *gpu)
-{
-#define LOAD(field, name) gpu->field = (PFN_##name)vkGetDeviceProcAddr(gpu->device, #name)
-    LOAD(create_acceleration, vkCreateAccelerationStructureKHR);
-    LOAD(destroy_acceleration, vkDestroyAccelerationStructureKHR);
-    LOAD(get_acceleration_sizes, vkGetAccelerationStructureBuildSizesKHR);
-    LOAD(get_acceleration_address, vkGetAccelerationStructureDeviceAddressKHR);
-    LOAD(cmd_build_accelerations, vkCmdBuildAccelerationStructuresKHR);
-#undef LOAD
 }
 
 static enum turner_result create_messenger(struct turner_gpu *gpu)
@@ -250,12 +272,8 @@ enum turner_result turner_gpu_create(struct turner_gpu *gpu, const char *wanted,
     gpu->info = infos[chosen];
     vkGetPhysicalDeviceMemoryProperties(gpu->physical, &gpu->memory);
     result = create_device(gpu);
-    if (result != TURNER_OK) {
+    if (result != TURNER_OK)
         turner_fail_within(result, "%s", gpu->info.name);
-        goto done;
-    }
-    if (gpu->info.ray_query)
-        load_ray_query_functions(gpu);
 done:
     free(devices);
     free(infos);

@@ -5,9 +5,8 @@
 #ifndef TURNER_GPU_DEVICE_H
 #define TURNER_GPU_DEVICE_H
 
-#include <vulkan/vulkan.h>
-
 #include "base/result.h"
+#include "gpu/vulkan.h"
 
 struct turner_gpu_info {
     char name[256];
@@ -56,6 +55,11 @@ struct turner_gpu {
     PFN_vkGetAccelerationStructureBuildSizesKHR get_acceleration_sizes;
     PFN_vkGetAccelerationStructureDeviceAddressKHR get_acceleration_address;
     PFN_vkCmdBuildAccelerationStructuresKHR cmd_build_accelerations;
+    /* NULL where pipelines are used */
+    PFN_vkCreateShadersEXT create_shaders;
+    PFN_vkDestroyShaderEXT destroy_shader;
+    PFN_vkGetShaderBinaryDataEXT get_shader_binary;
+    PFN_vkCmdBindShadersEXT cmd_bind_shaders;
 };
 
 /* Opens a device. `wanted` NULL takes the best usable one (discrete, integrated, virtual, CPU, in

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "gpu/shader_object.h"
 
 static enum turner_result check_limits(const struct turner_program *program,
                                        const struct turner_gpu *gpu)
@@ -63,25 +64,14 @@ static enum turner_result create_set(struct turner_program *program, struct turn
 
 static enum turner_result create_pipeline(struct turner_program *program, struct turner_gpu *gpu,
                                           const struct turner_spirv *spirv,
-                                          const VkSpecializationInfo *specialisation,
-                                          VkPipelineCache cache)
+                                          const VkSpecializationInfo *specialisation, bool full)
 {
-    VkPushConstantRange range = {VK_SHADER_STAGE_COMPUTE_BIT, 0, program->push_size};
-    VkPipelineLayoutCreateInfo layout = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-        .setLayoutCount = program->set_layout ? 1 : 0,
-        .pSetLayouts = &program->set_layout,
-        .pushConstantRangeCount = program->push_size ? 1 : 0,
-        .pPushConstantRanges = &range,
-    };
-    VK_TRY(vkCreatePipelineLayout(gpu->device, &layout, NULL, &program->layout));
     VkShaderModuleCreateInfo module = {
         .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
         .codeSize = spirv->count * sizeof *spirv->words,
         .pCode = spirv->words,
     };
     VK_TRY(vkCreateShaderModule(gpu->device, &module, NULL, &program->module));
-    bool full = gpu->info.packets && program->local_size[0] % gpu->info.subgroup_size == 0;
     VkComputePipelineCreateInfo pipeline = {
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
         .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
@@ -93,14 +83,50 @@ static enum turner_result create_pipeline(struct turner_program *program, struct
         .layout = program->layout,
         .basePipelineIndex = -1,
     };
-    VK_TRY(vkCreateComputePipelines(gpu->device, cache, 1, &pipeline, NULL, &program->pipeline));
+    VK_TRY(vkCreateComputePipelines(gpu->device, VK_NULL_HANDLE, 1, &pipeline, NULL,
+                                    &program->pipeline));
     return TURNER_OK;
+}
+
+static enum turner_result create_kernel(struct turner_program *program, struct turner_gpu *gpu,
+                                        const struct turner_spirv *spirv,
+                                        const VkSpecializationInfo *specialisation, bool no_cache)
+{
+    VkPushConstantRange range = {VK_SHADER_STAGE_COMPUTE_BIT, 0, program->push_size};
+    VkPipelineLayoutCreateInfo layout = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+        .setLayoutCount = program->set_layout ? 1 : 0,
+        .pSetLayouts = &program->set_layout,
+        .pushConstantRangeCount = program->push_size ? 1 : 0,
+        .pPushConstantRanges = &range,
+    };
+    VK_TRY(vkCreatePipelineLayout(gpu->device, &layout, NULL, &program->layout));
+    bool full = gpu->info.packets && program->local_size[0] % gpu->info.subgroup_size == 0;
+    if (!gpu->create_shaders)
+        return create_pipeline(program, gpu, spirv, specialisation, full);
+    VkShaderCreateInfoEXT shader = {
+        .sType = VK_STRUCTURE_TYPE_SHADER_CREATE_INFO_EXT,
+        .flags = full ? VK_SHADER_CREATE_REQUIRE_FULL_SUBGROUPS_BIT_EXT : 0,
+        .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+        .codeType = VK_SHADER_CODE_TYPE_SPIRV_EXT,
+        .codeSize = spirv->count * sizeof *spirv->words,
+        .pCode = spirv->words,
+        .pName = "main",
+        .setLayoutCount = layout.setLayoutCount,
+        .pSetLayouts = layout.pSetLayouts,
+        .pushConstantRangeCount = layout.pushConstantRangeCount,
+        .pPushConstantRanges = layout.pPushConstantRanges,
+        .pSpecializationInfo = specialisation,
+    };
+    program->bind_shaders = gpu->cmd_bind_shaders;
+    return turner_shader_object_create(&program->shader, gpu, &shader, no_cache,
+                                       &program->cached);
 }
 
 enum turner_result turner_program_create(struct turner_program *program, struct turner_gpu *gpu,
                                          const struct turner_spirv *spirv,
                                          const struct turner_constant *constants, size_t count,
-                                         VkPipelineCache cache)
+                                         bool no_cache)
 {
     *program = (struct turner_program){0};
     struct turner_reflection reflection;
@@ -134,7 +160,7 @@ enum turner_result turner_program_create(struct turner_program *program, struct 
     TURNER_TRY_DONE(check_limits(program, gpu));
     if (program->binding_count)
         TURNER_TRY_DONE(create_set(program, gpu));
-    TURNER_TRY_DONE(create_pipeline(program, gpu, spirv, &specialisation, cache));
+    TURNER_TRY_DONE(create_kernel(program, gpu, spirv, &specialisation, no_cache));
 done:
     turner_reflection_destroy(&reflection);
     free(entries);
@@ -146,6 +172,8 @@ done:
 void turner_program_destroy(struct turner_gpu *gpu, struct turner_program *program)
 {
     if (gpu->device && !gpu->hung) {
+        if (program->shader)
+            gpu->destroy_shader(gpu->device, program->shader, NULL);
         vkDestroyPipeline(gpu->device, program->pipeline, NULL);
         vkDestroyShaderModule(gpu->device, program->module, NULL);
         vkDestroyPipelineLayout(gpu->device, program->layout, NULL);
@@ -228,7 +256,11 @@ enum turner_result turner_program_bind_acceleration(struct turner_program *progr
 void turner_program_dispatch(VkCommandBuffer commands, const struct turner_program *program,
                              const void *push, uint32_t x, uint32_t y, uint32_t z)
 {
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->pipeline);
+    static const VkShaderStageFlagBits stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    if (program->shader)
+        program->bind_shaders(commands, 1, &stage, &program->shader);
+    else
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->pipeline);
     if (program->set)
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->layout, 0, 1,
                                 &program->set, 0, NULL);

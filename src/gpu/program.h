@@ -30,10 +30,13 @@ struct turner_reflection {
 };
 
 struct turner_program {
-    VkShaderModule module;
+    VkShaderModule module; /* with a pipeline; both null with a shader */
+    VkPipeline pipeline;
+    VkShaderEXT shader;
+    PFN_vkCmdBindShadersEXT bind_shaders;
+    bool cached; /* the shader came from the cache */
     VkDescriptorSetLayout set_layout; /* null when the shader binds nothing */
     VkPipelineLayout layout;
-    VkPipeline pipeline;
     VkDescriptorPool pool;
     VkDescriptorSet set;
     struct turner_binding bindings[TURNER_MAX_BINDINGS];
@@ -48,14 +51,20 @@ enum turner_result turner_reflect(struct turner_reflection *reflection,
                                   const struct turner_spirv *spirv);
 void turner_reflection_destroy(struct turner_reflection *reflection);
 
-/* Builds the pipeline. Constants whose id the shader lacks are ignored (what no scene needs may be
- * absent), so are those it has and that are not given (they keep their default). `cache` may be
- * VK_NULL_HANDLE. TURNER_DEVICE when the device cannot (local size, push constants). */
+/* Builds the kernel. Constants whose id the shader lacks are ignored (what no scene needs may be
+ * absent), so are those it has and that are not given (they keep their default). What the driver makes
+ * of it may be kept on disk (gpu/shader_object.h), unless no_cache. TURNER_DEVICE when the device cannot (local size, push constants). */
 enum turner_result turner_program_create(struct turner_program *program, struct turner_gpu *gpu,
                                          const struct turner_spirv *spirv,
                                          const struct turner_constant *constants, size_t count,
-                                         VkPipelineCache cache);
+                                         bool no_cache);
 void turner_program_destroy(struct turner_gpu *gpu, struct turner_program *program);
+
+/* Whether it was made, and not destroyed. */
+static inline bool turner_program_exists(const struct turner_program *program)
+{
+    return program->layout != VK_NULL_HANDLE;
+}
 
 /* Binds one resource, not while a dispatch runs. A binding that the shader does not have is
  * ignored. TURNER_BAD_INPUT when it declares something else there, TURNER_DEVICE when `buffer` is

@@ -5,7 +5,7 @@ static enum turner_result translate(struct turner_gpu *gpu, const struct turner_
     struct turner_program program;
     VkCommandBuffer commands;
     char push[256] = {0}; /* read by no group: there is none */
-    TURNER_TRY(turner_program_create(&program, gpu, spirv, NULL, 0, VK_NULL_HANDLE));
+    TURNER_TRY(turner_program_create(&program, gpu, spirv, NULL, 0, false));
     enum turner_result result = TURNER_OK;
     if (program.binding_count == 0 && program.push_size <= sizeof push) {
         result = turner_gpu_begin(gpu, &commands);

@@ -99,7 +99,7 @@ static enum turner_result prepare(struct pass *pass, const struct turner_kernel 
     TURNER_TRY(turner_param_block_create(&pass->params, renderer->gpu, &pass->kernel.params,
                                          pass->scene));
     TURNER_TRY(turner_program_create(&pass->program, renderer->gpu, &pass->kernel.spirv, constants,
-                                     count, VK_NULL_HANDLE));
+                                     count, options->no_cache));
     statistics->seconds_compile += turner_seconds() - start;
     if (renderer->ray_query)
         TURNER_TRY(turner_program_bind_acceleration(&pass->program, renderer->gpu,

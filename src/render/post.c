@@ -8,14 +8,14 @@
 
 enum turner_result turner_post_create_program(struct turner_post *post, struct turner_gpu *gpu,
                                               const struct turner_kernel *kernel,
-                                              const struct turner_scene *scene)
+                                              const struct turner_scene *scene, bool no_cache)
 {
     struct turner_constant constants[TURNER_PARAM_WORDS];
     size_t count = 0;
     *post = (struct turner_post){.wanted = true, .source = kernel->source};
     TURNER_TRY(turner_params_constants(constants, &count, &kernel->params, scene));
     return turner_program_create(&post->program, gpu, &kernel->spirv, constants, count,
-                                 VK_NULL_HANDLE);
+                                 no_cache);
 }
 
 enum turner_result turner_post_create_buffers(struct turner_post *post, struct turner_gpu *gpu,
@@ -34,7 +34,7 @@ static enum turner_result create(struct turner_post *post, struct turner_gpu *gp
     struct turner_kernel kernel;
     enum turner_result result = turner_kernel_compile(&kernel, 0, source, no_cache);
     if (result == TURNER_OK)
-        result = turner_post_create_program(post, gpu, &kernel, scene);
+        result = turner_post_create_program(post, gpu, &kernel, scene, no_cache);
     if (result == TURNER_OK)
         result = turner_post_create_buffers(post, gpu, &kernel, scene);
     turner_kernel_destroy(&kernel);

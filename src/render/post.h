@@ -25,7 +25,8 @@ void turner_post_destroy(struct turner_gpu *gpu, struct turner_post *post);
 /* The two halves of it: the program, which may be made in any thread, and what it works on. */
 enum turner_result turner_post_create_program(struct turner_post *post, struct turner_gpu *gpu,
                                               const struct turner_kernel *kernel,
-                                              const struct turner_scene *scene);
+                                              const struct turner_scene *scene,
+                                              bool no_cache);
 enum turner_result turner_post_create_buffers(struct turner_post *post, struct turner_gpu *gpu,
                                               const struct turner_kernel *kernel,
                                               const struct turner_scene *scene);

@@ -18,7 +18,7 @@
 static enum turner_result create_lighting_program(struct turner_lighting *lighting,
                                                   struct turner_gpu *gpu,
                                                   const struct turner_needs *needs,
-                                                  const struct turner_scene *scene)
+                                                  const struct turner_scene *scene, bool no_cache)
 {
     struct turner_constant constants[TURNER_KERNEL_CONSTANTS];
     size_t count;
@@ -26,7 +26,7 @@ static enum turner_result create_lighting_program(struct turner_lighting *lighti
     TURNER_TRY(turner_kernel_specialisation(constants, &count, kernel, needs, 0, scene));
     TURNER_TRY(turner_spirv_validate(&kernel->spirv));
     return turner_program_create(&lighting->program, gpu, &kernel->spirv, constants, count,
-                                 VK_NULL_HANDLE);
+                                 no_cache);
 }
 
 enum turner_result turner_lighting_create(struct turner_lighting *lighting, struct turner_gpu *gpu,
@@ -38,7 +38,7 @@ enum turner_result turner_lighting_create(struct turner_lighting *lighting, stru
     *lighting = (struct turner_lighting){0};
     enum turner_result result = turner_kernel_compile(&lighting->kernel, kind, source, no_cache);
     if (result == TURNER_OK)
-        result = create_lighting_program(lighting, gpu, needs, scene);
+        result = create_lighting_program(lighting, gpu, needs, scene, no_cache);
     if (result != TURNER_OK)
         turner_lighting_destroy(gpu, lighting);
     return result;
@@ -69,7 +69,7 @@ static enum turner_result create_visibility_program(struct turner_program *progr
     enum turner_result result = turner_spirv_validate(&special);
     if (result == TURNER_OK) {
         turner_gpu_translate(gpu, &special);
-        result = turner_program_create(program, gpu, &special, NULL, 0, VK_NULL_HANDLE);
+        result = turner_program_create(program, gpu, &special, NULL, 0, no_cache);
     }
     turner_spirv_destroy(&special);
     return result;

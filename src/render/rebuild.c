@@ -43,7 +43,7 @@ static enum turner_result make_part(struct turner_rebuild *rebuild, struct turne
         result = turner_spirv_validate(&special); /* half of what it was */
     if (result == TURNER_OK)
         result = turner_program_create(&part->program, rebuild->gpu, &special, NULL, 0,
-                                       VK_NULL_HANDLE);
+                                       rebuild->no_cache);
     if (result == TURNER_OK && still_wanted(rebuild) == TURNER_OK)
         turner_gpu_translate(rebuild->gpu, &special);
     turner_spirv_destroy(&special);
@@ -64,7 +64,7 @@ static enum turner_result make_picture(struct turner_rebuild *rebuild)
     TURNER_TRY(turner_kernel_compile(&rebuild->post_kernel, 0, &sources->post, rebuild->no_cache));
     TURNER_TRY(turner_spirv_validate(&rebuild->post_kernel.spirv));
     return turner_post_create_program(&rebuild->post, rebuild->gpu, &rebuild->post_kernel,
-                                      rebuild->scene);
+                                      rebuild->scene, rebuild->no_cache);
 }
 
 static struct turner_needs needs_for(const struct turner_part *part,
@@ -97,7 +97,7 @@ static void *run(void *user)
                                &needs, rebuild->scene, rebuild->no_cache);
     }
     atomic_store(&rebuild->lit, true);
-    if (rebuild->previewed && rebuild->lighting.program.pipeline)
+    if (rebuild->previewed && turner_program_exists(&rebuild->lighting.program))
         wait_for_owner(rebuild);
     if (sources->picture.text)
         rebuild->result = make_picture(rebuild);

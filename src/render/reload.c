@@ -189,7 +189,7 @@ static void look(struct turner_reload *reload)
         reload->build = NULL;
     }
     if (reload->state == TURNER_RELOAD_BUILDING && !reload->build) {
-        if (reload->preview.visibility.pipeline && picture != reload->picture)
+        if (turner_program_exists(&reload->preview.visibility) && picture != reload->picture)
             read_previews(reload, &sources, false);
         start(reload, &sources, picture);
     }
@@ -377,8 +377,8 @@ enum turner_result turner_reload_rest(struct turner_reload *reload,
         return TURNER_OK;
     if (reload->previews)
         prepare_previews(reload);
-    if (reload->preview.recorded || !reload->preview.visibility.pipeline ||
-        !reload->lighting.program.pipeline)
+    if (reload->preview.recorded || !turner_program_exists(&reload->preview.visibility) ||
+        !turner_program_exists(&reload->lighting.program))
         return TURNER_OK;
     return turner_preview_record(&reload->preview, reload->renderer, &reload->lighting, scene,
                                  options);
@@ -389,7 +389,7 @@ bool turner_reload_has_preview(const struct turner_reload *reload)
     const struct turner_rebuild *build = reload->build;
     return build && build->text == reload->wanted && reload->preview.recorded &&
            !build->lighting_shown && atomic_load(&build->lit) &&
-           build->lighting.program.pipeline;
+           turner_program_exists(&build->lighting.program);
 }
 
 enum turner_result turner_reload_preview(struct turner_reload *reload, struct turner_image *image,

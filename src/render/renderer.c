@@ -189,7 +189,8 @@ static enum turner_result specialise(struct turner_renderer *renderer,
                                          constants, count);
     TURNER_TRY(result);
     result = turner_program_create(&renderer->program, renderer->gpu, &special, NULL, 0,
-                                   VK_NULL_HANDLE);
+                                   options->no_cache);
+    statistics->driver_cached = renderer->program.cached;
     turner_spirv_destroy(&special);
     return result;
 }

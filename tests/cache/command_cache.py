@@ -1,4 +1,5 @@
-"""command_cache.py reuse | broken | key | pair | off | fastest: pictures, whatever the cache is like.
+"""command_cache.py reuse | broken | key | pair | off | fastest | objects: pictures, whatever the cache
+is like.
 
 Environment: TURNER, the command; TURNER_SOURCE. Exit status 77 without a Vulkan device.
 """
@@ -15,6 +16,7 @@ import tempfile
 
 TURNER = os.environ["TURNER"]
 SHADERS = pathlib.Path(os.environ["TURNER_SOURCE"]) / "shaders"
+SCENES = pathlib.Path(os.environ["TURNER_SOURCE"]) / "scenes"
 SCENE = """{"version": 1, "camera": {"from": [0, 1, 5], "at": [0, 0, 0]},
  "background": 0.5, "settings": {"size": [48, 32], "depth": 4},
  "materials": {"glass": {"k_r": 1, "k_t": 1, "index": 1.5}, "grey": {"k_d": 0.5}},
@@ -24,13 +26,13 @@ SCENE = """{"version": 1, "camera": {"from": [0, 1, 5], "at": [0, 0, 0]},
  "lights": [{"type": "point", "position": [2, 4, 3], "intensity": 30}]}"""
 
 
-def render(*options, cache="cache", status=0, **changes):
-    """The picture's bytes and what came from the cache: (source, kernel)."""
+def render(*options, scene="scene.json", size="48x32", cache="cache", status=0, **changes):
+    """The picture's bytes and what came from the cache: (source, kernel, driver)."""
     env = dict(os.environ, TURNER_CACHE_DIR=str(pathlib.Path(cache).absolute()) if cache else "")
     env.update(changes)
     for name in ("p.png", "s.json"):
         pathlib.Path(name).unlink(missing_ok=True)
-    command = ["render", "scene.json", "-o", "p.png", "-q", "--stats", "s.json", *options]
+    command = ["render", scene, "--size", size, "-o", "p.png", "-q", "--stats", "s.json", *options]
     done = subprocess.run([TURNER, *command], capture_output=True, text=True, timeout=120, env=env)
     print("$ turner", *options, f"=> {done.returncode}", done.stdout, done.stderr)
     if done.returncode == 4 and "no Vulkan driver" in done.stderr:
@@ -41,7 +43,8 @@ def render(*options, cache="cache", status=0, **changes):
         return done.stderr
     assert "cache" not in done.stderr, "a word about the cache"
     cached = json.loads(pathlib.Path("s.json").read_text())["cached"]
-    return pathlib.Path("p.png").read_bytes(), (cached["source"], cached["kernel"])
+    return pathlib.Path("p.png").read_bytes(), (cached["source"], cached["kernel"],
+                                                cached["driver"])
 
 
 def data(png):
@@ -59,21 +62,31 @@ def entries(cache="cache"):
     return sorted((pathlib.Path(cache) / "shaders").iterdir())
 
 
+def kinds():
+    """Of what is kept, and what comes from there then: drivers without shader objects keep their own."""
+    found = [entry.name.split("-")[0] for entry in entries()]
+    assert found in (["driver", "reduced", "spirv"], ["reduced", "spirv"])
+    return found, (True, True, "driver" in found)
+
+
+NONE = (False, False, False)
+
+
 def reuse():
-    """The second run takes both from the cache, and draws the same."""
+    """The second run takes all from the cache, and draws the same."""
     first, cached = render()
-    assert cached == (False, False), "an empty cache had something"
-    assert [e.name.split("-")[0] for e in entries()] == ["reduced", "spirv"]
+    assert cached == NONE, "an empty cache had something"
+    kept, all_cached = kinds()
     second, cached = render()
-    assert cached == (True, True), "nothing came from the cache"
+    assert cached == all_cached, "nothing came from the cache"
     assert second == first
     # another scene needs another kernel of the same source
     text = pathlib.Path("scene.json").read_text()
     pathlib.Path("scene.json").write_text(text.replace('"k_r": 1, "k_t": 1, "index": 1.5',
                                                        '"k_d": 0.3'))
     other, cached = render()
-    assert cached == (True, False) and other != first
-    assert len(entries()) == 3
+    assert cached == (True, False, False) and other != first
+    assert len(entries()) == 2 * len(kept) - 1
 
 
 def broken():
@@ -86,7 +99,7 @@ def broken():
         "one byte short": lambda b: b[:-1],
         "garbage": lambda b: bytes((i * 167 + 13) % 256 for i in range(len(b))),
         "another version": lambda b: bytes([b[0] ^ 1]) + b[1:],
-        "last word": lambda b: b[:-4] + bytes(4),
+        "last word": lambda b: b[:-4] + bytes(255 - x for x in b[-4:]),
         "zeros": lambda b: bytes(len(b)),
     }
     for what, spoil in spoilt.items():
@@ -94,42 +107,46 @@ def broken():
         for entry, content in whole.items():
             entry.write_bytes(spoil(content))
         picture, cached = render()
-        assert picture == first and cached == (False, False), what
+        assert picture == first and cached == NONE, what
         assert {e: e.read_bytes() for e in entries()} == whole, f"{what}: not mended"
     # each taken for the other
-    a, b = whole
-    a.write_bytes(whole[b])
-    b.write_bytes(whole[a])
-    assert render() == (first, (False, False))
+    others = list(whole.values())
+    for entry, other in zip(whole, others[1:] + others[:1]):
+        entry.write_bytes(other)
+    assert render() == (first, NONE)
     # one of them gone, then all, then the folder, then a folder in place of an entry
-    a.unlink()
-    assert render()[0] == first
+    for entry in whole:
+        entry.unlink()
+        assert render()[0] == first
     shutil.rmtree("cache/shaders")
-    assert render() == (first, (False, False))
+    assert render() == (first, NONE)
     shutil.rmtree("cache")
-    assert render() == (first, (False, False))
-    a.unlink()
-    a.mkdir()
-    assert render()[0] == first
-    a.rmdir()
+    assert render() == (first, NONE)
+    for entry in whole:
+        entry.unlink()
+        entry.mkdir()
+        assert render()[0] == first
+        entry.rmdir()
     # folders that cannot be written: read-only (not for root), a file in the way, nowhere
     for path in (pathlib.Path("cache/shaders"), pathlib.Path("cache")):
         path.chmod(0o555)
-    assert render() in ((first, (False, True)), (first, (True, False)), (first, (True, True)))
+    picture, cached = render()
+    assert picture == first and cached != NONE
     for path in (pathlib.Path("cache"), pathlib.Path("cache/shaders")):
         path.chmod(0o755)
     pathlib.Path("file").write_text("x")
-    assert render(cache="file") == (first, (False, False))
-    assert render(cache="file/cache") == (first, (False, False))
-    assert render(cache="/proc/turner") == (first, (False, False))
+    assert render(cache="file") == (first, NONE)
+    assert render(cache="file/cache") == (first, NONE)
+    assert render(cache="/proc/turner") == (first, NONE)
     assert pathlib.Path("file").read_text() == "x"
 
 
 def key():
     """Sources are compared, not their names; what does not compile is never hidden."""
     first, _ = render()
+    kept, all_cached = kinds()
     shutil.copytree(SHADERS, "mine")
-    assert render("--shader-dir", "mine") == (first, (True, True)), "the same text is the same"
+    assert render("--shader-dir", "mine") == (first, all_cached), "the same text is the same"
     hook = pathlib.Path("mine/background.glsl")
     text = hook.read_text()
     hook.write_text(text + "// a word more\n")
@@ -137,16 +154,16 @@ def key():
     # the picture says that its shaders are not turner's own, and is the same but for that
     assert picture != first and data(picture) == data(first)
     assert not cached[0], "changed text came from the cache"
-    assert render("--shader-dir", "mine")[1] == (True, True)
+    assert render("--shader-dir", "mine")[1] == all_cached
     hook.write_text(text + "!\n")
     said = render("--shader-dir", "mine", status=3)
     assert re.search(r"background\.glsl:\d+", said), said
     hook.write_text(text)
-    assert render("--shader-dir", "mine") == (first, (True, True))
+    assert render("--shader-dir", "mine") == (first, all_cached)
     # another kind of kernel is another entry
     count = len(entries())
     _, cached = render("-m", "sphere=f64")
-    assert not cached[0] and len(entries()) == count + 2
+    assert not cached[0] and len(entries()) == count + len(kept)
 
 
 def pair():
@@ -157,8 +174,8 @@ def pair():
     assert [run.wait(timeout=240) for run in runs] == [0] * 4
     pictures = {pathlib.Path(f"{i}.png").read_bytes() for i in range(4)}
     assert len(pictures) == 1
-    assert [e.name.split("-")[0] for e in entries()] == ["reduced", "spirv"], "something was left"
-    assert render() == (pictures.pop(), (True, True))
+    _, all_cached = kinds()
+    assert render() == (pictures.pop(), all_cached)
 
 
 def off():
@@ -167,11 +184,11 @@ def off():
     home.mkdir()
     first, _ = render()
     before = {entry: entry.read_bytes() for entry in entries()}
-    assert render("--no-cache") == (first, (False, False))
-    assert render(cache="", HOME=str(home), XDG_CACHE_HOME="") == (first, (False, False))
+    assert render("--no-cache") == (first, NONE)
+    assert render(cache="", HOME=str(home), XDG_CACHE_HOME="") == (first, NONE)
     assert not list(home.rglob("*turner*")), "something was kept"
     shutil.rmtree("cache")
-    assert render("--no-cache") == (first, (False, False))
+    assert render("--no-cache") == (first, NONE)
     assert not pathlib.Path("cache").exists() and before
 
 
@@ -203,9 +220,20 @@ def fastest():
     assert "as measured" not in devices()
 
 
+def objects():
+    """Every scene by a pipeline, by a shader object, and by one that is kept: the same picture."""
+    for scene in sorted(set(SCENES.glob("*.json")) - {SCENES / "schema.json"}):
+        pictures = [render(scene=str(scene), size="64x48", **changes)
+                    for changes in ({"TURNER_MASK_EXTENSIONS": "VK_EXT_shader_object"}, {}, {})]
+        assert not pictures[0][1][2], "a pipeline from the cache"
+        assert pictures[0][0] == pictures[1][0] == pictures[2][0], scene
+    kept = {entry.name.split("-")[0] for entry in entries()}
+    assert pictures[2][1][2] == ("driver" in kept)
+
+
 def main():
     tests = {"reuse": reuse, "broken": broken, "key": key, "pair": pair, "off": off,
-             "fastest": fastest}
+             "fastest": fastest, "objects": objects}
     os.environ["LC_ALL"] = "C"
     with tempfile.TemporaryDirectory(prefix="turner-cache-") as folder:
         os.chdir(folder)

@@ -72,7 +72,7 @@ static void build_program(struct turner_program *program)
     struct turner_spirv spirv;
     assert_ok(turner_shader_source_from_text(&source, "ray.comp", shader, NULL, 0));
     assert_ok(turner_compile(&spirv, &source, NULL, 0));
-    assert_ok(turner_program_create(program, &gpu, &spirv, NULL, 0, VK_NULL_HANDLE));
+    assert_ok(turner_program_create(program, &gpu, &spirv, NULL, 0, false));
     turner_spirv_destroy(&spirv);
     turner_shader_source_destroy(&source);
 }

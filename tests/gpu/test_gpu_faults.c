@@ -128,13 +128,13 @@ static void no_pipeline(void **state)
         0));
     assert_ok(turner_compile(&spirv, &source, NULL, 0));
     pipeline_answer = VK_ERROR_OUT_OF_HOST_MEMORY;
-    assert_int_equal(turner_program_create(&program, &gpu, &spirv, NULL, 0, VK_NULL_HANDLE),
+    assert_int_equal(turner_program_create(&program, &gpu, &spirv, NULL, 0, false),
                      TURNER_DEVICE);
     pipeline_answer = VK_SUCCESS;
     assert_message_has("vkCreateComputePipelines: VK_ERROR_OUT_OF_HOST_MEMORY (program.c:");
     assert_null(program.module);
     assert_null(program.set_layout);
-    assert_ok(turner_program_create(&program, &gpu, &spirv, NULL, 0, VK_NULL_HANDLE));
+    assert_ok(turner_program_create(&program, &gpu, &spirv, NULL, 0, false));
     turner_program_destroy(&gpu, &program);
     turner_spirv_destroy(&spirv);
     turner_shader_source_destroy(&source);

@@ -1,6 +1,6 @@
 # The GPU layer.
-foreach(name gpu_include gpu_compiler gpu_layout gpu_device gpu_memory gpu_program gpu_accel
-             gpu_faults)
+foreach(name gpu_include gpu_compiler gpu_layout gpu_device gpu_memory gpu_program
+             gpu_shader_object gpu_accel gpu_faults)
     turner_unit_test(${name} ${CMAKE_CURRENT_LIST_DIR}/test_${name}.c LAYERS base image gpu)
 endforeach()
 target_link_options(test_gpu_faults PRIVATE

@@ -84,7 +84,7 @@ def stats():
         assert reference or seconds["compile"] > 0 and seconds["upload"] > 0, "seconds"
         assert seconds["start"] > 0, "seconds"
         assert seconds["whole"] > seconds["start"] + seconds["trace"] + seconds["write"], "seconds"
-        assert sorted(s["cached"]) == ["kernel", "source"], "cached"
+        assert sorted(s["cached"]) == ["driver", "kernel", "source"], "cached"
         assert not (reference and any(s["cached"].values())), "nothing to compile"
         assert s["peak_bytes"]["host"] > 1e6, "peak_bytes.host"
         assert reference or s["peak_bytes"]["device"] > 40 * 30 * 16, "peak_bytes.device"

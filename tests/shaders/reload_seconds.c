@@ -69,7 +69,7 @@ static void measure_stages(struct reload_bench *bench, double *seconds[STAGES], 
     clock[PROGRAM] = turner_seconds();
     struct turner_program before = bench->renderer.program;
     assert_ok(turner_program_create(&bench->renderer.program, &bench->gpu, &special, NULL, 0,
-                                    VK_NULL_HANDLE));
+                                    true));
     clock[FIRST] = turner_seconds();
     assert_ok(turner_renderer_warm(&bench->renderer));
     clock[STAGES] = turner_seconds();

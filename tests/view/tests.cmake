@@ -27,8 +27,12 @@ if(TARGET turner_view)
     set_target_properties(turner_lose_surface PROPERTIES C_VISIBILITY_PRESET default)
 
     foreach(name IN LISTS view_tests)
+        set(plain "")
+        if(name MATCHES "^(camera|params|shown|soon|follows|rays|files|rebuilt|cameras)$")
+            set(plain ";plain")
+        endif()
         add_test(NAME view_${name} COMMAND Python3::Interpreter ${view_script} ${name})
-        set_tests_properties(view_${name} PROPERTIES SKIP_RETURN_CODE 77 LABELS device TIMEOUT 600
+        set_tests_properties(view_${name} PROPERTIES SKIP_RETURN_CODE 77 LABELS "device${plain}" TIMEOUT 600
             # one at a time, from the beginning, beside tests of other kinds: what they wait for comes
             COST 1000 RESOURCE_LOCK window
             ENVIRONMENT "TURNER=$<TARGET_FILE:turner>;TURNER_LOSE_LIBRARY=$<TARGET_FILE:turner_lose_surface>;TURNER_SANITIZED=${TURNER_SANITIZE};PYTHONDONTWRITEBYTECODE=1")
