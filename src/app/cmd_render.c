@@ -8,6 +8,7 @@
 #include "app/scene_options.h"
 #include "image/atomic.h"
 #include "image/image.h"
+#include "render/adaptive.h"
 #include "render/advice.h"
 #include "render/layers.h"
 #include "render/opening.h"
@@ -66,6 +67,9 @@ static void print_help(void)
          "  turner render scenes/prism.json -o prism.png --size 1280x720 --spp 16\n"
          "  turner render scenes/prism.json -o prism.exr --aov normal,depth,rays");
 }
+
+/* Of so few it takes longer to have Mesa's CPU device optimise the code than to do without. */
+#define FEW_SAMPLES 16384
 
 struct arguments {
     const char *scene, *output, *stats, *path;
@@ -257,7 +261,20 @@ static enum turner_result render_path(struct arguments *a, struct turner_scene *
     return result;
 }
 
-/* The scene once, with a device that is being opened. */
+static bool has_few_samples(const struct turner_settings *settings)
+{
+    return !turner_adaptive_wanted(settings) &&
+           (double)settings->width * settings->height * settings->spp <= FEW_SAMPLES;
+}
+
+/* Whether that is to be known before the device opens; else reading the scene is not waited for. */
+static bool may_have_few_samples(const struct arguments *a)
+{
+    double pixels = (double)a->options.width * a->options.height;
+    return pixels > 0 && pixels <= FEW_SAMPLES && !a->watching && !a->path;
+}
+
+/* The scene once, with a device that is being opened, or is opened now. */
 static enum turner_result load_and_render(struct arguments *a, struct turner_opening *opening)
 {
     struct turner_scene *scene;
@@ -265,6 +282,11 @@ static enum turner_result load_and_render(struct arguments *a, struct turner_ope
     double start = turner_seconds();
     TURNER_TRY(load(&scene, a));
     statistics.seconds_parse = turner_seconds() - start;
+    if (!opening->begun) {
+        if (has_few_samples(&scene->settings))
+            turner_gpu_prefer_soon();
+        turner_opening_start(opening, a->options.render.device);
+    }
     turner_advise(scene, a->scene, turner_image_bits(a->output));
     enum turner_result result = (a->path ? render_path : render)(a, scene, &statistics, opening);
     turner_scene_destroy(scene);
@@ -337,8 +359,9 @@ static enum turner_result watch(struct arguments *a, struct turner_opening *open
 
 static enum turner_result open_and_render(struct arguments *a)
 {
-    struct turner_opening opening;
-    turner_opening_start(&opening, a->options.render.device);
+    struct turner_opening opening = {0};
+    if (!may_have_few_samples(a))
+        turner_opening_start(&opening, a->options.render.device);
     enum turner_result result = a->watching ? watch(a, &opening) : load_and_render(a, &opening);
     turner_opening_destroy(&opening);
     return result;

@@ -4,11 +4,15 @@
 
 #include "gpu/specialise.h"
 
-/* turner_compile. *found (unless NULL) says whether the cache had it: glslang then has not run, and
- * is not initialised. What does not compile is not kept. */
+/* turner_compile. *found (unless NULL) says whether the cache had it, or the program (gpu/prebuilt.h):
+ * glslang then has not run, and is not initialised. What does not compile is not kept. */
 enum turner_result turner_compile_cached(struct turner_spirv *out, bool *found,
                                          const struct turner_shader_source *source,
                                          const char *const *defines, size_t define_count);
+
+/* A hash of what the result of turner_compile follows from. */
+uint64_t turner_compile_key(const struct turner_shader_source *source, const char *const *defines,
+                            size_t define_count);
 
 /* turner_spirv_reduce, likewise. */
 enum turner_result turner_spirv_reduce_cached(struct turner_spirv *out, bool *found,

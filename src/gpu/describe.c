@@ -27,6 +27,11 @@ uint32_t turner_gpu_cpu_threads(void)
     return threads < 1 ? 1 : threads < MOST_THREADS ? (uint32_t)threads : MOST_THREADS;
 }
 
+void turner_gpu_prefer_soon(void)
+{
+    setenv("GALLIVM_PERF", "nopt", 0);
+}
+
 /* Whether `name` is an item of a comma separated list. */
 static bool listed(const char *list, const char *name)
 {

@@ -74,6 +74,11 @@ struct turner_gpu {
 enum turner_result turner_gpu_create(struct turner_gpu *gpu, const char *wanted, bool validation);
 void turner_gpu_destroy(struct turner_gpu *gpu);
 
+/* Has Mesa's CPU device not optimise what it makes of shaders, which takes less than half of the time
+ * to make and thrice to run; others take no notice. Before the process opens a device or begins a
+ * thread. Does nothing where GALLIVM_PERF is set. */
+void turner_gpu_prefer_soon(void);
+
 /* Threads that Mesa's CPU device has: one per core this process may use, or LP_NUM_THREADS. */
 uint32_t turner_gpu_cpu_threads(void);
 

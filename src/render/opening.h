@@ -31,7 +31,7 @@ enum turner_result turner_opening_compile(struct turner_kernel *kernel,
                                           const struct turner_render_options *options,
                                           struct turner_statistics *statistics);
 
-/* Waits, if need be, and closes the device. */
+/* Waits, if need be, and closes the device; nothing where all is 0. */
 void turner_opening_destroy(struct turner_opening *opening);
 
 /* turner_render, with the options' device being opened already. */
