@@ -23,11 +23,13 @@ void turner_opening_start(struct turner_opening *opening, const char *device);
 /* Waits for it; the device is used from the caller's thread from here on. */
 enum turner_result turner_opening_finish(struct turner_opening *opening);
 
-/* Compiles meanwhile, waits for it, and has the kernel for these methods in the end. Adds to
- * seconds_compile. The caller destroys the kernel, also after a failure. */
-enum turner_result turner_opening_compile(struct turner_kernel *kernel,
+/* Compiles the scene's kernel and prepares a renderer meanwhile, waits for the device, and has what is
+ * right for it in the end (turner_renderer_finish comes next). Adds to seconds_compile. The caller
+ * destroys the kernel, also after a failure; the renderer, which is zeros at first, is none then. */
+enum turner_result turner_opening_prepare(struct turner_renderer *renderer,
+                                          struct turner_kernel *kernel,
                                           struct turner_opening *opening,
-                                          const struct turner_methods *methods,
+                                          const struct turner_scene *scene,
                                           const struct turner_render_options *options,
                                           struct turner_statistics *statistics);
 

@@ -94,41 +94,61 @@ static void measure_once(struct turner_gpu *gpu, const struct turner_methods *me
         (void)turner_measure_traversals(rates, &count, gpu, options);
 }
 
-/* Shaders are compiled while the device opens, for the kernel that a device on a CPU would get;
- * whether that was right is known afterwards. Either's failure counts in the order of the steps. */
-enum turner_result turner_opening_compile(struct turner_kernel *kernel,
+/* Of a larger scene building the hierarchy waits for the device, in case it is for another. */
+#define GUESSED_PRIMITIVES 65536
+
+static bool is_small(const struct turner_scene *scene)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < scene->group_count; i++)
+        count += turner_group_primitive_count(&scene->groups[i]);
+    return count <= GUESSED_PRIMITIVES;
+}
+
+/* What is done while the device opens is for the kernel that one on a CPU would get; whether that was
+ * right is known afterwards. Either's failure counts in the order of the steps. */
+enum turner_result turner_opening_prepare(struct turner_renderer *renderer,
+                                          struct turner_kernel *kernel,
                                           struct turner_opening *opening,
-                                          const struct turner_methods *methods,
+                                          const struct turner_scene *scene,
                                           const struct turner_render_options *options,
                                           struct turner_statistics *statistics)
 {
     static const struct turner_gpu_info likely = {
         .software = true, .packets = true, .ray_query = true, .float64 = true};
+    const struct turner_methods *methods = &scene->settings.methods;
     unsigned guess, kind;
     double start = turner_seconds();
-    enum turner_result compiled =
+    enum turner_result guessed =
         turner_choose_kernel(&guess, &likely, methods, options->traversal);
-    if (compiled == TURNER_OK)
-        compiled = turner_kernel_create(kernel, guess, options);
-    else
-        guess = ~0u;
-    char *message = compiled == TURNER_OK ? NULL : turner_strdup(turner_message());
+    bool chosen = guessed == TURNER_OK, prepared = chosen && is_small(scene);
+    if (guessed == TURNER_OK)
+        guessed = turner_kernel_create(kernel, guess, options);
     statistics->seconds_compile = turner_seconds() - start;
+    if (guessed == TURNER_OK && prepared)
+        guessed = turner_renderer_prepare(renderer, kernel, scene, options, statistics);
+    char *message = guessed == TURNER_OK ? NULL : turner_strdup(turner_message());
 
     enum turner_result result;
     TURNER_TRY_DONE(turner_opening_finish(opening));
     measure_once(&opening->gpu, methods, options);
     TURNER_TRY_DONE(
         turner_choose_kernel(&kind, &opening->gpu.info, methods, options->traversal));
-    if (kind != guess) {
+    if (!chosen || kind != guess) {
+        turner_renderer_destroy(renderer);
         turner_kernel_destroy(kernel);
+        prepared = false;
         start = turner_seconds();
         result = turner_kernel_create(kernel, kind, options);
         statistics->seconds_compile += turner_seconds() - start;
-    } else if (compiled != TURNER_OK) {
-        result = turner_fail(compiled, "%s", message);
+    } else if (guessed != TURNER_OK) {
+        result = turner_fail(guessed, "%s", message);
     }
+    if (result == TURNER_OK && !prepared)
+        result = turner_renderer_prepare(renderer, kernel, scene, options, statistics);
 done:
+    if (result != TURNER_OK)
+        turner_renderer_destroy(renderer);
     free(message);
     return result;
 }
@@ -144,11 +164,12 @@ static enum turner_result draw_on_device(struct turner_image *image,
     struct turner_renderer renderer = {0};
     enum turner_result result;
     const struct turner_methods *methods = &scene->settings.methods;
-    TURNER_TRY_DONE(turner_opening_compile(&kernel, opening, methods, options, statistics));
+    TURNER_TRY_DONE(
+        turner_opening_prepare(&renderer, &kernel, opening, scene, options, statistics));
     statistics->seconds_device = opening->seconds;
     snprintf(statistics->device, sizeof statistics->device, "%s", gpu->info.name);
     snprintf(statistics->driver, sizeof statistics->driver, "%s", gpu->info.driver);
-    TURNER_TRY_DONE(turner_renderer_create(&renderer, gpu, &kernel, scene, options, statistics));
+    TURNER_TRY_DONE(turner_renderer_finish(&renderer, gpu, &kernel, scene, options, statistics));
     double start = turner_seconds();
     TURNER_TRY_DONE(turner_renderer_warm(&renderer));
     statistics->seconds_compile += turner_seconds() - start;

@@ -179,30 +179,20 @@ static enum turner_result specialise(struct turner_renderer *renderer,
 {
     struct turner_constant constants[TURNER_KERNEL_CONSTANTS];
     size_t count;
-    struct turner_spirv special;
     TURNER_TRY(turner_kernel_specialisation(constants, &count, kernel, &renderer->needs,
                                             renderer->flat.max_depth, scene));
-    enum turner_result result =
-        options->no_cache
-            ? turner_spirv_reduce(&special, &kernel->spirv, constants, count)
-            : turner_spirv_reduce_cached(&special, &statistics->kernel_cached, &kernel->spirv,
-                                         constants, count);
-    TURNER_TRY(result);
-    result = turner_program_create(&renderer->program, renderer->gpu, &special, NULL, 0,
-                                   options->no_cache);
-    statistics->driver_cached = renderer->program.cached;
-    turner_spirv_destroy(&special);
-    return result;
+    return options->no_cache
+               ? turner_spirv_reduce(&renderer->special, &kernel->spirv, constants, count)
+               : turner_spirv_reduce_cached(&renderer->special, &statistics->kernel_cached,
+                                            &kernel->spirv, constants, count);
 }
 
-static enum turner_result create(struct turner_renderer *renderer,
-                                 const struct turner_kernel *kernel,
-                                 const struct turner_scene *scene,
-                                 const struct turner_render_options *options,
-                                 struct turner_statistics *statistics)
+static enum turner_result build(struct turner_renderer *renderer,
+                                const struct turner_kernel *kernel,
+                                const struct turner_scene *scene,
+                                const struct turner_render_options *options,
+                                struct turner_statistics *statistics)
 {
-    struct turner_gpu *gpu = renderer->gpu;
-
     double start = turner_seconds();
     TURNER_TRY(turner_flat_create(&renderer->flat, scene,
                                   renderer->ray_query            ? TURNER_ORDER_MEDIAN
@@ -210,7 +200,27 @@ static enum turner_result create(struct turner_renderer *renderer,
                                                                  : TURNER_ORDER_SAH));
     double built = turner_seconds();
     TURNER_TRY(specialise(renderer, kernel, scene, options, statistics));
-    double specialised = turner_seconds();
+    statistics->seconds_build = built - start;
+    statistics->seconds_compile += turner_seconds() - built;
+    statistics->kernel_words = kernel->spirv.count;
+    statistics->source_cached = kernel->cached;
+    statistics->needs = renderer->needs.bits;
+    return TURNER_OK;
+}
+
+static enum turner_result upload(struct turner_renderer *renderer,
+                                 const struct turner_kernel *kernel,
+                                 const struct turner_scene *scene,
+                                 const struct turner_render_options *options,
+                                 struct turner_statistics *statistics)
+{
+    struct turner_gpu *gpu = renderer->gpu;
+    double start = turner_seconds();
+    TURNER_TRY(turner_program_create(&renderer->program, gpu, &renderer->special, NULL, 0,
+                                     options->no_cache));
+    turner_spirv_destroy(&renderer->special);
+    statistics->driver_cached = renderer->program.cached;
+    double made = turner_seconds();
     TURNER_TRY(turner_param_block_create(&renderer->params, gpu, &kernel->params, scene));
     TURNER_TRY(turner_post_create(&renderer->post, gpu, scene, options));
     TURNER_TRY(turner_device_scene_create(&renderer->scene, gpu, scene, &renderer->flat,
@@ -234,12 +244,8 @@ static enum turner_result create(struct turner_renderer *renderer,
         TURNER_TRY(turner_buffer_create(&renderer->positions, gpu,
                                         TURNER_LIST_MAX * 2 * sizeof(float), 0,
                                         TURNER_MEMORY_HOST, "a list of samples"));
-    statistics->seconds_build = built - start;
-    statistics->seconds_compile += specialised - built;
-    statistics->seconds_upload = turner_seconds() - specialised;
-    statistics->kernel_words = kernel->spirv.count;
-    statistics->source_cached = kernel->cached;
-    statistics->needs = renderer->needs.bits;
+    statistics->seconds_compile += made - start;
+    statistics->seconds_upload = turner_seconds() - made;
     statistics->primitives = renderer->flat.primitive_count + scene->plane_count;
     statistics->instances = scene->instance_count;
     return TURNER_OK;
@@ -274,16 +280,15 @@ static struct turner_scene deep_enough(const struct turner_scene *scene)
     return deep;
 }
 
-enum turner_result turner_renderer_create(struct turner_renderer *renderer, struct turner_gpu *gpu,
-                                          const struct turner_kernel *kernel,
-                                          const struct turner_scene *scene,
-                                          const struct turner_render_options *options,
-                                          struct turner_statistics *statistics)
+enum turner_result turner_renderer_prepare(struct turner_renderer *renderer,
+                                           const struct turner_kernel *kernel,
+                                           const struct turner_scene *scene,
+                                           const struct turner_render_options *options,
+                                           struct turner_statistics *statistics)
 {
     memset(renderer, 0, sizeof *renderer);
     assert((kernel->kind & (TURNER_F64 | TURNER_SPHERE_F64)) ==
            kind_of(&scene->settings.methods));
-    renderer->gpu = gpu;
     renderer->kind = kernel->kind;
     renderer->source = kernel->source;
     renderer->ray_query = kernel->kind & TURNER_RAY_QUERY;
@@ -301,12 +306,36 @@ enum turner_result turner_renderer_create(struct turner_renderer *renderer, stru
     renderer->glow = turner_follow_glow(scene);
     renderer->blend = turner_follow_blend(scene);
     renderer->tile = options->tile;
-    enum turner_result result = create(renderer, kernel, &deep, options, statistics);
+    enum turner_result result = build(renderer, kernel, &deep, options, statistics);
+    if (result != TURNER_OK)
+        turner_renderer_destroy(renderer);
+    return result;
+}
+
+enum turner_result turner_renderer_finish(struct turner_renderer *renderer, struct turner_gpu *gpu,
+                                          const struct turner_kernel *kernel,
+                                          const struct turner_scene *scene,
+                                          const struct turner_render_options *options,
+                                          struct turner_statistics *statistics)
+{
+    struct turner_scene deep = deep_enough(scene);
+    renderer->gpu = gpu;
+    enum turner_result result = upload(renderer, kernel, &deep, options, statistics);
     if (result == TURNER_OK && scene->settings.error > 0)
         result = create_accurate(renderer, kernel, scene, options, statistics);
     if (result != TURNER_OK)
         turner_renderer_destroy(renderer);
     return result;
+}
+
+enum turner_result turner_renderer_create(struct turner_renderer *renderer, struct turner_gpu *gpu,
+                                          const struct turner_kernel *kernel,
+                                          const struct turner_scene *scene,
+                                          const struct turner_render_options *options,
+                                          struct turner_statistics *statistics)
+{
+    TURNER_TRY(turner_renderer_prepare(renderer, kernel, scene, options, statistics));
+    return turner_renderer_finish(renderer, gpu, kernel, scene, options, statistics);
 }
 
 enum turner_result turner_renderer_set_bounds(struct turner_renderer *renderer,
@@ -384,19 +413,20 @@ enum turner_result turner_renderer_move(struct turner_renderer *renderer,
 void turner_renderer_destroy(struct turner_renderer *renderer)
 {
     struct turner_gpu *gpu = renderer->gpu;
-    if (!gpu)
-        return;
     if (renderer->accurate)
         turner_renderer_destroy(renderer->accurate);
     free(renderer->accurate);
-    turner_buffer_destroy(gpu, &renderer->pixel_counts);
-    turner_buffer_destroy(gpu, &renderer->counters);
-    turner_buffer_destroy(gpu, &renderer->pixels);
-    turner_buffer_destroy(gpu, &renderer->positions);
-    turner_device_scene_destroy(gpu, &renderer->scene);
-    turner_param_block_destroy(gpu, &renderer->params);
-    turner_post_destroy(gpu, &renderer->post);
-    turner_program_destroy(gpu, &renderer->program);
+    if (gpu) {
+        turner_buffer_destroy(gpu, &renderer->pixel_counts);
+        turner_buffer_destroy(gpu, &renderer->counters);
+        turner_buffer_destroy(gpu, &renderer->pixels);
+        turner_buffer_destroy(gpu, &renderer->positions);
+        turner_device_scene_destroy(gpu, &renderer->scene);
+        turner_param_block_destroy(gpu, &renderer->params);
+        turner_post_destroy(gpu, &renderer->post);
+        turner_program_destroy(gpu, &renderer->program);
+    }
+    turner_spirv_destroy(&renderer->special);
     turner_flat_destroy(&renderer->flat);
     memset(renderer, 0, sizeof *renderer);
 }

@@ -65,7 +65,7 @@ enum turner_result turner_kernel_size(size_t *bytes, const struct turner_kernel 
                                       const struct turner_needs *needs);
 
 struct turner_renderer {
-    struct turner_gpu *gpu; /* not owned */
+    struct turner_gpu *gpu; /* not owned; NULL until the second step */
     unsigned kind;          /* of its kernel, */
     uint64_t source;        /* and what that is made from */
     bool ray_query;
@@ -74,6 +74,7 @@ struct turner_renderer {
                                                              with what a replaced surface does */
     struct turner_flat flat;
     struct turner_device_scene scene;
+    struct turner_spirv special; /* between the two steps of creation */
     struct turner_program program;
     struct turner_param_block params;
     struct turner_post post;
@@ -110,8 +111,23 @@ enum turner_result turner_choose_kernel(unsigned *kind, const struct turner_gpu_
                                         const struct turner_methods *methods,
                                         enum turner_traversal wanted);
 
-/* Builds, specialises and uploads; fills sizes and times of `statistics`. The kernel is of the kind
- * that turner_choose_kernel gives for the scene. */
+/* The first step, without a device: builds the hierarchy and specialises the kernel, which is of the
+ * kind that turner_choose_kernel gives for the scene. */
+enum turner_result turner_renderer_prepare(struct turner_renderer *renderer,
+                                           const struct turner_kernel *kernel,
+                                           const struct turner_scene *scene,
+                                           const struct turner_render_options *options,
+                                           struct turner_statistics *statistics);
+
+/* The second, with all the same: makes the program and uploads. Both fill sizes and times of
+ * `statistics`, and destroy the renderer where they fail. */
+enum turner_result turner_renderer_finish(struct turner_renderer *renderer, struct turner_gpu *gpu,
+                                          const struct turner_kernel *kernel,
+                                          const struct turner_scene *scene,
+                                          const struct turner_render_options *options,
+                                          struct turner_statistics *statistics);
+
+/* One after the other. */
 enum turner_result turner_renderer_create(struct turner_renderer *renderer, struct turner_gpu *gpu,
                                           const struct turner_kernel *kernel,
                                           const struct turner_scene *scene,

@@ -69,9 +69,13 @@ static enum turner_result create(struct turner_painter *painter)
     painter->since = turner_watch_now();
     turner_painter_find_shaders(painter);
     painter->own.changes.built++;
+    struct turner_layers rays = {.wanted = TURNER_LAYERS_OF_RAYS};
+    struct turner_render_options counting = *options;
+    counting.layers = painter->counts ? &rays : NULL;
     if (!painter->count) {
-        TURNER_TRY(turner_opening_compile(&painter->kernel, painter->opening, methods, options,
-                                          made));
+        turner_renderer_destroy(&painter->renderer);
+        TURNER_TRY(turner_opening_prepare(&painter->renderer, &painter->kernel, painter->opening,
+                                          &painter->scene, &counting, made));
     } else {
         unsigned kind;
         TURNER_TRY(turner_choose_kernel(&kind, &gpu->info, methods, options->traversal));
@@ -79,12 +83,11 @@ static enum turner_result create(struct turner_painter *painter)
             turner_kernel_destroy(&painter->kernel);
             TURNER_TRY(turner_kernel_create(&painter->kernel, kind, options));
         }
+        turner_renderer_destroy(&painter->renderer);
+        TURNER_TRY(turner_renderer_prepare(&painter->renderer, &painter->kernel, &painter->scene,
+                                           &counting, made));
     }
-    turner_renderer_destroy(&painter->renderer);
-    struct turner_layers rays = {.wanted = TURNER_LAYERS_OF_RAYS};
-    struct turner_render_options counting = *options;
-    counting.layers = painter->counts ? &rays : NULL;
-    TURNER_TRY(turner_renderer_create(&painter->renderer, gpu, &painter->kernel, &painter->scene,
+    TURNER_TRY(turner_renderer_finish(&painter->renderer, gpu, &painter->kernel, &painter->scene,
                                       &counting, made));
     TURNER_TRY(turner_renderer_warm(&painter->renderer));
     painter->renderer.piece = PIECE_SECONDS;

@@ -1,5 +1,5 @@
-"""command_cache.py reuse | broken | key | pair | off | fastest | objects: pictures, whatever the cache
-is like.
+"""command_cache.py reuse | broken | key | pair | off | fastest | prebuilt | objects: pictures, whatever
+the cache is like.
 
 Environment: TURNER, the command; TURNER_SOURCE. Exit status 77 without a Vulkan device.
 """
@@ -26,13 +26,16 @@ SCENE = """{"version": 1, "camera": {"from": [0, 1, 5], "at": [0, 0, 0]},
  "lights": [{"type": "point", "position": [2, 4, 3], "intensity": 30}]}"""
 
 
-def render(*options, scene="scene.json", size="48x32", cache="cache", status=0, **changes):
+def render(*options, scene="scene.json", output="p.png", shaders="own", cache="cache", status=0,
+           **changes):
     """The picture's bytes and what came from the cache: (source, kernel, driver)."""
     env = dict(os.environ, TURNER_CACHE_DIR=str(pathlib.Path(cache).absolute()) if cache else "")
     env.update(changes)
-    for name in ("p.png", "s.json"):
+    for name in (output, "s.json"):
         pathlib.Path(name).unlink(missing_ok=True)
-    command = ["render", scene, "--size", size, "-o", "p.png", "-q", "--stats", "s.json", *options]
+    command = ["render", scene, "-o", output, "-q", "--stats", "s.json", *options]
+    if shaders:
+        command += ["--shader-dir", shaders]
     done = subprocess.run([TURNER, *command], capture_output=True, text=True, timeout=120, env=env)
     print("$ turner", *options, f"=> {done.returncode}", done.stdout, done.stderr)
     if done.returncode == 4 and "no Vulkan driver" in done.stderr:
@@ -43,7 +46,7 @@ def render(*options, scene="scene.json", size="48x32", cache="cache", status=0, 
         return done.stderr
     assert "cache" not in done.stderr, "a word about the cache"
     cached = json.loads(pathlib.Path("s.json").read_text())["cached"]
-    return pathlib.Path("p.png").read_bytes(), (cached["source"], cached["kernel"],
+    return pathlib.Path(output).read_bytes(), (cached["source"], cached["kernel"],
                                                 cached["driver"])
 
 
@@ -145,21 +148,21 @@ def key():
     """Sources are compared, not their names; what does not compile is never hidden."""
     first, _ = render()
     kept, all_cached = kinds()
-    shutil.copytree(SHADERS, "mine")
-    assert render("--shader-dir", "mine") == (first, all_cached), "the same text is the same"
+    shutil.copytree("own", "mine")
+    assert render(shaders="mine") == (first, all_cached), "the same text is the same"
     hook = pathlib.Path("mine/background.glsl")
     text = hook.read_text()
     hook.write_text(text + "// a word more\n")
-    picture, cached = render("--shader-dir", "mine")
-    # the picture says that its shaders are not turner's own, and is the same but for that
+    picture, cached = render(shaders="mine")
+    # the picture says which shaders it is by, and is the same but for that
     assert picture != first and data(picture) == data(first)
     assert not cached[0], "changed text came from the cache"
-    assert render("--shader-dir", "mine")[1] == all_cached
+    assert render(shaders="mine")[1] == all_cached
     hook.write_text(text + "!\n")
-    said = render("--shader-dir", "mine", status=3)
+    said = render(shaders="mine", status=3)
     assert re.search(r"background\.glsl:\d+", said), said
     hook.write_text(text)
-    assert render("--shader-dir", "mine") == (first, all_cached)
+    assert render(shaders="mine") == (first, all_cached)
     # another kind of kernel is another entry
     count = len(entries())
     _, cached = render("-m", "sphere=f64")
@@ -169,8 +172,8 @@ def key():
 def pair():
     """Several processes fill an empty cache at once."""
     env = dict(os.environ, TURNER_CACHE_DIR=str(pathlib.Path("cache").absolute()))
-    runs = [subprocess.Popen([TURNER, "render", "scene.json", "-q", "-o", f"{i}.png"], env=env)
-            for i in range(4)]
+    runs = [subprocess.Popen([TURNER, "render", "scene.json", "-q", "-o", f"{i}.png",
+                              "--shader-dir", "own"], env=env) for i in range(4)]
     assert [run.wait(timeout=240) for run in runs] == [0] * 4
     pictures = {pathlib.Path(f"{i}.png").read_bytes() for i in range(4)}
     assert len(pictures) == 1
@@ -220,24 +223,37 @@ def fastest():
     assert "as measured" not in devices()
 
 
+def prebuilt():
+    """turner's own shaders were compiled when it was built, to the same."""
+    first, cached = render(shaders=None)
+    assert cached == (True, False, False), "glslang was waited for"
+    assert not [entry for entry in entries() if entry.name.startswith("spirv")]
+    assert render("--no-cache", shaders=None) == (first, NONE)
+
+
 def objects():
-    """Every scene by a pipeline, by a shader object, and by one that is kept: the same picture."""
+    """Every scene by a pipeline, by a shader object, by one that is kept, and all that of code that
+    is optimised, as it is not for so small a picture: the same picture."""
     for scene in sorted(set(SCENES.glob("*.json")) - {SCENES / "schema.json"}):
-        pictures = [render(scene=str(scene), size="64x48", **changes)
-                    for changes in ({"TURNER_MASK_EXTENSIONS": "VK_EXT_shader_object"}, {}, {})]
+        pictures = [render("--size", "64x48", scene=str(scene), output="p.exr", shaders=None, **changes)
+                    for changes in ({"TURNER_MASK_EXTENSIONS": "VK_EXT_shader_object"}, {}, {},
+                                    {"GALLIVM_PERF": ""})]
         assert not pictures[0][1][2], "a pipeline from the cache"
-        assert pictures[0][0] == pictures[1][0] == pictures[2][0], scene
+        assert all(picture == pictures[0][0] for picture, _ in pictures), scene
     kept = {entry.name.split("-")[0] for entry in entries()}
     assert pictures[2][1][2] == ("driver" in kept)
 
 
 def main():
     tests = {"reuse": reuse, "broken": broken, "key": key, "pair": pair, "off": off,
-             "fastest": fastest, "objects": objects}
+             "fastest": fastest, "prebuilt": prebuilt, "objects": objects}
     os.environ["LC_ALL"] = "C"
     with tempfile.TemporaryDirectory(prefix="turner-cache-") as folder:
         os.chdir(folder)
         pathlib.Path("scene.json").write_text(SCENE)
+        shutil.copytree(SHADERS, "own")  # not those that were compiled when turner was built
+        with open("own/render.comp", "a", encoding="utf-8") as file:
+            file.write("// a word more\n")
         tests[sys.argv[1]]()
         os.chdir("/")
 
