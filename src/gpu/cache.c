@@ -83,7 +83,7 @@ static bool is_entry(const uint8_t *file, size_t file_size, const struct turner_
     if (turner_hash_bytes(TURNER_HASH_START, at, rest) != header.checksum)
         return false;
     for (size_t i = 0; i < count; i++) {
-        if (memcmp(at, key[i].bytes, key[i].size) != 0)
+        if (key[i].size && memcmp(at, key[i].bytes, key[i].size) != 0)
             return false;
         at += key[i].size;
     }
@@ -217,7 +217,8 @@ void turner_cache_store(const void *bytes, size_t size, const char *kind,
         entry_path(path, folder, kind, key, count)) {
         uint8_t *file = turner_calloc(total, 1), *at = file + sizeof(struct header);
         for (size_t i = 0; i < count; i++) {
-            memcpy(at, key[i].bytes, key[i].size);
+            if (key[i].size)
+                memcpy(at, key[i].bytes, key[i].size);
             at += key[i].size;
         }
         memcpy(at, bytes, size);

@@ -18,7 +18,7 @@
  * when that is nowhere: TURNER_CACHE_DIR is empty, or there is no home. */
 bool turner_cache_folder(char folder[PATH_MAX]);
 
-/* A piece of a key. */
+/* A piece of a key; NULL where its size is 0. */
 struct turner_cache_part {
     const void *bytes;
     size_t size;

@@ -112,6 +112,28 @@ static void comes_from_the_cache(void **state)
     assert_int_equal(entry_count(), 2);
 }
 
+/* As most kernels are, once their constants are folded in. */
+static void without_constants(void **state)
+{
+    (void)state;
+    struct turner_shader_source source;
+    struct turner_spirv spirv;
+    empty_cache();
+    assert_ok(turner_shader_source_from_text(&source, "test.comp",
+                                             "#version 460\n"
+                                             "layout(local_size_x = 8) in;\n"
+                                             "void main() {}\n", NULL, 0));
+    assert_ok(turner_compile(&spirv, &source, NULL, 0));
+    for (int made = 0; made < 2; made++) {
+        struct turner_program program;
+        assert_ok(turner_program_create(&program, &gpu, &spirv, NULL, 0, false));
+        assert_int_equal(program.cached, made);
+        turner_program_destroy(&gpu, &program);
+    }
+    turner_spirv_destroy(&spirv);
+    turner_shader_source_destroy(&source);
+}
+
 static void without_a_cache(void **state)
 {
     (void)state;
@@ -168,9 +190,9 @@ static void not_where_it_is_missing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(comes_from_the_cache),  cmocka_unit_test(without_a_cache),
-        cmocka_unit_test(refused_by_the_driver), cmocka_unit_test(the_driver_fails),
-        cmocka_unit_test(not_where_it_is_missing),
+        cmocka_unit_test(comes_from_the_cache),    cmocka_unit_test(without_constants),
+        cmocka_unit_test(without_a_cache),         cmocka_unit_test(refused_by_the_driver),
+        cmocka_unit_test(the_driver_fails),        cmocka_unit_test(not_where_it_is_missing),
     };
     strcpy(folder, "/tmp/turner-objects-XXXXXX");
     if (!have_device())
