@@ -52,8 +52,9 @@ enum turner_result turner_reflect(struct turner_reflection *reflection,
 void turner_reflection_destroy(struct turner_reflection *reflection);
 
 /* Builds the kernel. Constants whose id the shader lacks are ignored (what no scene needs may be
- * absent), so are those it has and that are not given (they keep their default). What the driver makes
- * of it may be kept on disk (gpu/shader_object.h), unless no_cache. TURNER_DEVICE when the device cannot (local size, push constants). */
+ * absent), so are those it has and that are not given (they keep their default). What the driver
+ * makes of it may be kept on disk (gpu/shader_object.h), unless no_cache. TURNER_DEVICE when the
+ * device cannot (local size, push constants). */
 enum turner_result turner_program_create(struct turner_program *program, struct turner_gpu *gpu,
                                          const struct turner_spirv *spirv,
                                          const struct turner_constant *constants, size_t count,

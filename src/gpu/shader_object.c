@@ -1,17 +1,35 @@
+#define _GNU_SOURCE /* dladdr */
 #include "gpu/shader_object.h"
 
+#include <dlfcn.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/memory.h"
 #include "gpu/cache.h"
 
 #define KIND "driver"
-#define PARTS 5
+#define PARTS 6
+
+/* Which build of the driver it is. Its binaries carry Mesa's version alone, which those who build
+ * their own do not always change. */
+struct build {
+    int64_t size, seconds, nanoseconds; /* of the file that the driver's functions are in */
+};
+
+static struct build build_of(const struct turner_gpu *gpu)
+{
+    Dl_info info;
+    struct stat status;
+    if (!dladdr((void *)gpu->create_shaders, &info) || stat(info.dli_fname, &status) != 0)
+        return (struct build){0};
+    return (struct build){status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+}
 
 /* What the driver's form follows from; layouts follow from the SPIR-V. */
 static void make_key(struct turner_cache_part key[PARTS], const struct turner_gpu_info *info,
-                     const VkShaderCreateInfoEXT *create)
+                     const struct build *build, const VkShaderCreateInfoEXT *create)
 {
     const VkSpecializationInfo *special = create->pSpecializationInfo;
     key[0] = (struct turner_cache_part){info->name, strlen(info->name)};
@@ -19,6 +37,7 @@ static void make_key(struct turner_cache_part key[PARTS], const struct turner_gp
     key[2] = (struct turner_cache_part){&create->flags, sizeof create->flags};
     key[3] = (struct turner_cache_part){special->pData, special->dataSize};
     key[4] = (struct turner_cache_part){create->pCode, create->codeSize};
+    key[5] = (struct turner_cache_part){build, sizeof *build};
 }
 
 /* The driver's form, to be freed, or NULL. */
@@ -48,11 +67,12 @@ enum turner_result turner_shader_object_create(VkShaderEXT *shader, struct turne
                                                const VkShaderCreateInfoEXT *create, bool no_cache,
                                                bool *cached)
 {
+    const struct build build = build_of(gpu);
     struct turner_cache_part key[PARTS];
     void *binary;
     size_t size;
     *cached = false;
-    make_key(key, &gpu->info, create);
+    make_key(key, &gpu->info, &build, create);
     if (!no_cache && turner_cache_load(&binary, &size, KIND, key, PARTS)) {
         *cached = create_from_binary(shader, gpu, create, binary, size);
         free(binary);

@@ -33,7 +33,8 @@ static enum turner_result show_preview(struct turner_painter *painter,
     TURNER_TRY(turner_reload_preview(painter->reload, &painter->soon, scene));
     TURNER_TRY(turner_post_draw(&painter->soon, &renderer->post, renderer->gpu));
     painter->own.changes.previewed++;
-    show(painter, &painter->soon, wish, true);    return TURNER_OK;
+    show(painter, &painter->soon, wish, true);
+    return TURNER_OK;
 }
 
 enum turner_result turner_painter_rest(struct turner_painter *painter,

@@ -160,6 +160,20 @@ static void refused_by_the_driver(void **state)
     assert_int_equal(from_binary, 2);
 }
 
+/* The version may be the same, and all else. Here it is this program in the driver's place. */
+static void another_build_of_the_driver(void **state)
+{
+    (void)state;
+    empty_cache();
+    assert_adds(10, false);
+    assert_int_equal(entry_count(), 1);
+    gpu.create_shaders = driver_create;
+    assert_adds(10, false);
+    gpu.create_shaders = count_creations;
+    assert_int_equal(entry_count(), 2);
+    assert_int_equal(from_binary, 0);
+}
+
 static void the_driver_fails(void **state)
 {
     (void)state;
@@ -190,9 +204,13 @@ static void not_where_it_is_missing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(comes_from_the_cache),    cmocka_unit_test(without_constants),
-        cmocka_unit_test(without_a_cache),         cmocka_unit_test(refused_by_the_driver),
-        cmocka_unit_test(the_driver_fails),        cmocka_unit_test(not_where_it_is_missing),
+        cmocka_unit_test(comes_from_the_cache),
+        cmocka_unit_test(without_constants),
+        cmocka_unit_test(without_a_cache),
+        cmocka_unit_test(refused_by_the_driver),
+        cmocka_unit_test(another_build_of_the_driver),
+        cmocka_unit_test(the_driver_fails),
+        cmocka_unit_test(not_where_it_is_missing),
     };
     strcpy(folder, "/tmp/turner-objects-XXXXXX");
     if (!have_device())
