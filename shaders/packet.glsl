@@ -6,6 +6,8 @@
 // leaf comes up, leaves until a node comes up, and at the top level instances between.
 #include "boxes.glsl"
 
+layout(constant_id = TURNER_CONSTANT_SOON) const bool SOON = false;
+
 const uint LANES = 8u;
 const uint ASIDE = BVH_STACK / LANES; // registers put aside, at most
 const int MISSED = 0x7fffffff; // the key of a box that no lane meets; others are bits of floats
@@ -69,6 +71,8 @@ struct beam_t {
     uint faces; // where each lane finds its own in a node: entries may be behind
     float start, least, most;
 };
+
+const beam_t NO_BEAM = beam_t(false, 0, 0u, 0.0, 0.0, 0.0);
 
 // Of rays that are followed backward: how far apart they may be, as a share of their length.
 const float APART = 0.01;
@@ -321,12 +325,14 @@ void walk_group(inout search_t search, uint root, uint instance, uint override_m
     boxes_ray_t boxes = boxes_ray_of(origin, direction);
     shear_t shear = shear_of(direction);
     int t_max = t_max_of(search);
-    beam_t beam = beam_of(boxes, vec3(direction), float(search.hit.t), t_max >= 0);
+    beam_t beam = NO_BEAM;
+    if (!SOON)
+        beam = beam_of(boxes, vec3(direction), float(search.hit.t), t_max >= 0);
     walk_t walk = walk_from(root, 0u);
     uint tested = 0u;
     do {
         make_sure_of_room(walk);
-        if (beam.possible && tested < FEW)
+        if (!SOON && beam.possible && tested < FEW)
             walk_nodes(walk, boxes, beam.reach != 0 ? beam.reach : ~least_of_lanes(~t_max), true,
                        beam);
         else
@@ -356,13 +362,12 @@ void traverse(inout search_t search, ray_t ray)
         walk_group(search, instances.at[0].root, 0u, TURNER_NO_INDEX, ray.origin, ray.direction);
         return;
     }
-    const beam_t none = beam_t(false, 0, 0u, 0.0, 0.0, 0.0);
     boxes_ray_t boxes = boxes_ray_of(ray.origin, ray.direction);
     int t_max = t_max_of(search);
     walk_t walk = walk_from(scene.root, ASIDE);
     do {
         make_sure_of_room(walk);
-        walk_nodes(walk, boxes, t_max, false, none);
+        walk_nodes(walk, boxes, t_max, false, NO_BEAM);
         do {
             if (is_leaf(walk.next)) {
                 uint instance = walk.next & TURNER_WIDE_FIRST;

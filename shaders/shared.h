@@ -26,6 +26,7 @@
 #define TURNER_CONSTANT_BVH_STACK 2 /* nodes kept at once: from the built tree */
 #define TURNER_CONSTANT_METHODS 3   /* TURNER_METHOD_… chosen; 0 is the default of each */
 #define TURNER_CONSTANT_PIXEL_COUNTS 4 /* 1: rays are counted for each pixel, too */
+#define TURNER_CONSTANT_SOON 5 /* 1: what only makes large pictures quicker is left out */
 #define TURNER_CONSTANT_PARAMS 64 /* const parameters (//!PARAM) from here on */
 #define TURNER_WORKGROUP 8          /* a workgroup is 8×8 pixels in Morton order */
 

@@ -100,6 +100,7 @@ struct turner_render_options {
     int threads;         /* of the reference; 0 one per core */
     bool unspecialised;  /* everything in the kernel, needed or not: same picture, slower */
     bool no_cache;       /* compiled shaders are neither taken from nor kept on disk */
+    bool soon;           /* the kernel is made sooner and traces slower, for few samples: same picture */
     struct turner_layers *layers; /* NULL, or what to fill beside the picture; the caller destroys
                                      it, also after a failure */
     /* Called with the share done in [0,1]; false ends the rendering (TURNER_INTERRUPTED). */

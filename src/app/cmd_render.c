@@ -283,8 +283,7 @@ static enum turner_result load_and_render(struct arguments *a, struct turner_ope
     TURNER_TRY(load(&scene, a));
     statistics.seconds_parse = turner_seconds() - start;
     if (!opening->begun) {
-        if (has_few_samples(&scene->settings))
-            turner_gpu_prefer_soon();
+        a->options.render.soon = has_few_samples(&scene->settings) && turner_gpu_prefer_soon();
         turner_opening_start(opening, a->options.render.device);
     }
     turner_advise(scene, a->scene, turner_image_bits(a->output));

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "app/app.h"
+#include "gpu/device.h"
 #include "image/image.h"
 
 static const struct {
@@ -85,6 +86,7 @@ int main(int argc, char **argv)
     setlocale(LC_ALL, "C");
     catch_signals();
     atexit(turner_image_abandon); /* memory may run out while a picture is written */
+    turner_gpu_leave_out_absent();
     if (argc < 2) {
         print_help(stderr);
         return TURNER_USAGE;

@@ -88,11 +88,13 @@ enum turner_result turner_compile_cached(struct turner_spirv *out, bool *found,
 
 enum turner_result turner_spirv_reduce_cached(struct turner_spirv *out, bool *found,
                                               const struct turner_spirv *spirv,
-                                              const struct turner_constant *constants, size_t count)
+                                              const struct turner_constant *constants,
+                                              size_t count, bool soon)
 {
     char made_by[512];
     const struct turner_cache_part key[] = {
         maker(made_by),
+        {&soon, sizeof soon},
         {constants, count * sizeof *constants},
         {spirv->words, spirv->count * sizeof *spirv->words},
     };
@@ -102,7 +104,7 @@ enum turner_result turner_spirv_reduce_cached(struct turner_spirv *out, bool *fo
         *found = cached;
     if (cached)
         return TURNER_OK;
-    TURNER_TRY(turner_spirv_reduce(out, spirv, constants, count));
+    TURNER_TRY(turner_spirv_reduce(out, spirv, constants, count, soon));
     store(out, "reduced", key, parts);
     return TURNER_OK;
 }

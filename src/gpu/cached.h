@@ -18,6 +18,6 @@ uint64_t turner_compile_key(const struct turner_shader_source *source, const cha
 enum turner_result turner_spirv_reduce_cached(struct turner_spirv *out, bool *found,
                                               const struct turner_spirv *spirv,
                                               const struct turner_constant *constants,
-                                              size_t count);
+                                              size_t count, bool soon);
 
 #endif

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/memory.h"
 #include "gpu/internal.h"
@@ -27,9 +28,15 @@ uint32_t turner_gpu_cpu_threads(void)
     return threads < 1 ? 1 : threads < MOST_THREADS ? (uint32_t)threads : MOST_THREADS;
 }
 
-void turner_gpu_prefer_soon(void)
+bool turner_gpu_prefer_soon(void)
 {
-    setenv("GALLIVM_PERF", "nopt", 0);
+    return !getenv("GALLIVM_PERF") && setenv("GALLIVM_PERF", "nopt", 1) == 0;
+}
+
+void turner_gpu_leave_out_absent(void)
+{
+    if (access("/dev/dri", F_OK) != 0)
+        setenv("VK_LOADER_DRIVERS_DISABLE", "*radeon*,*intel*,*nouveau*,*asahi*,*gfxstream*", 0);
 }
 
 /* Whether `name` is an item of a comma separated list. */

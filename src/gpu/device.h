@@ -76,8 +76,13 @@ void turner_gpu_destroy(struct turner_gpu *gpu);
 
 /* Has Mesa's CPU device not optimise what it makes of shaders, which takes less than half of the time
  * to make and thrice to run; others take no notice. Before the process opens a device or begins a
- * thread. Does nothing where GALLIVM_PERF is set. */
-void turner_gpu_prefer_soon(void);
+ * thread. False, and nothing done, where GALLIVM_PERF is set. */
+bool turner_gpu_prefer_soon(void);
+
+/* Has the Vulkan loader leave out Mesa's drivers of hardware that they find in /dev/dri where there is
+ * no such folder: to open them for nothing takes a tenth of a short run. Before the process begins a
+ * thread. Does nothing where VK_LOADER_DRIVERS_DISABLE is set. */
+void turner_gpu_leave_out_absent(void);
 
 /* Threads that Mesa's CPU device has: one per core this process may use, or LP_NUM_THREADS. */
 uint32_t turner_gpu_cpu_threads(void);

@@ -41,28 +41,23 @@ static void decorate(words &spirv)
                  missing.end());
 }
 
-static enum turner_result run(struct turner_spirv *out, const struct turner_spirv *spirv,
-                              const struct turner_constant *constants, size_t count, bool optimise)
-{
-    *out = {};
-    std::unordered_map<uint32_t, words> values;
-    for (size_t i = 0; i < count; i++)
-        values[constants[i].id] = {constants[i].value};
+enum class effort { fold, reduce, optimise };
 
-    std::string said;
-    spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_3);
-    optimizer.SetMessageConsumer([&said](spv_message_level_t level, const char *,
-                                         const spv_position_t &, const char *message) {
-        if (level <= SPV_MSG_ERROR && said.empty())
-            said = message;
-    });
+/* Constants, and what they decide. */
+static void fold(spvtools::Optimizer &optimizer,
+                 const std::unordered_map<uint32_t, words> &values)
+{
     optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
         .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
         .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
         .RegisterPass(spvtools::CreateStripDebugInfoPass())
         .RegisterPass(spvtools::CreateDeadBranchElimPass())
-        .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
-        .RegisterPass(spvtools::CreateMergeReturnPass()) /* others are not inlined */
+        .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
+}
+
+static void reduce(spvtools::Optimizer &optimizer)
+{
+    optimizer.RegisterPass(spvtools::CreateMergeReturnPass()) /* others are not inlined */
         .RegisterPass(spvtools::CreateInlineExhaustivePass())
         .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
         .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
@@ -78,7 +73,28 @@ static enum turner_result run(struct turner_spirv *out, const struct turner_spir
         .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
         .RegisterPass(spvtools::CreateLocalSingleStoreElimPass())
         .RegisterPass(spvtools::CreateAggressiveDCEPass());
-    if (optimise)
+}
+
+static enum turner_result run(struct turner_spirv *out, const struct turner_spirv *spirv,
+                              const struct turner_constant *constants, size_t count,
+                              effort wanted)
+{
+    *out = {};
+    std::unordered_map<uint32_t, words> values;
+    for (size_t i = 0; i < count; i++)
+        values[constants[i].id] = {constants[i].value};
+
+    std::string said;
+    spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_3);
+    optimizer.SetMessageConsumer([&said](spv_message_level_t level, const char *,
+                                         const spv_position_t &, const char *message) {
+        if (level <= SPV_MSG_ERROR && said.empty())
+            said = message;
+    });
+    fold(optimizer, values);
+    if (wanted != effort::fold)
+        reduce(optimizer);
+    if (wanted == effort::optimise)
         optimizer.RegisterPerformancePasses();
     spvtools::OptimizerOptions options;
     options.set_run_validator(false); /* turner_spirv_validate does that */
@@ -97,11 +113,12 @@ enum turner_result turner_spirv_specialise(struct turner_spirv *out,
                                            const struct turner_spirv *spirv,
                                            const struct turner_constant *constants, size_t count)
 {
-    return run(out, spirv, constants, count, true);
+    return run(out, spirv, constants, count, effort::optimise);
 }
 
 enum turner_result turner_spirv_reduce(struct turner_spirv *out, const struct turner_spirv *spirv,
-                                       const struct turner_constant *constants, size_t count)
+                                       const struct turner_constant *constants, size_t count,
+                                       bool soon)
 {
-    return run(out, spirv, constants, count, false);
+    return run(out, spirv, constants, count, soon ? effort::fold : effort::reduce);
 }

@@ -16,8 +16,11 @@ enum turner_result turner_spirv_specialise(struct turner_spirv *out,
 /* The same, but what is left computes as it did, to the last bit: constants are folded in, functions
  * put where they are called, and what cannot run or is not used is taken out, no more. A driver has
  * less than half of the work with it. (The pass of SPIRV-Tools 2023.1 that takes out what is not used
- * crashes on some functions that are called: all must be put in place.) */
+ * crashes on some functions that are called: all must be put in place.) With `soon` constants are
+ * folded, what cannot run is taken out, and the rest is left to the driver: that takes a quarter of
+ * the time here, and the driver's a little longer than it would otherwise. */
 enum turner_result turner_spirv_reduce(struct turner_spirv *out, const struct turner_spirv *spirv,
-                                       const struct turner_constant *constants, size_t count);
+                                       const struct turner_constant *constants, size_t count,
+                                       bool soon);
 
 #endif

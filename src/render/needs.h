@@ -13,6 +13,7 @@ struct turner_needs {
     uint32_t max_steps;     /* rays traced for one sample, at most */
     uint32_t max_crossings; /* transmissive surfaces on one straight line, at most */
     bool pixel_counts;      /* rays are counted for each pixel: no scene's need, a layer's */
+    bool soon;              /* what only makes large pictures quicker is left out: the caller's */
 };
 
 /* What can ask for a feature. */

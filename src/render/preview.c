@@ -64,8 +64,9 @@ static enum turner_result create_visibility_program(struct turner_program *progr
     struct turner_spirv special;
     TURNER_TRY(turner_kernel_specialisation(constants, &count, kernel, needs, bvh_depth, scene));
     TURNER_TRY(no_cache
-                   ? turner_spirv_reduce(&special, &kernel->spirv, constants, count)
-                   : turner_spirv_reduce_cached(&special, NULL, &kernel->spirv, constants, count));
+                   ? turner_spirv_reduce(&special, &kernel->spirv, constants, count, false)
+                   : turner_spirv_reduce_cached(&special, NULL, &kernel->spirv, constants, count,
+                                                false));
     enum turner_result result = turner_spirv_validate(&special);
     if (result == TURNER_OK) {
         turner_gpu_translate(gpu, &special);

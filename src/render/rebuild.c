@@ -36,8 +36,9 @@ static enum turner_result make_part(struct turner_rebuild *rebuild, struct turne
     TURNER_TRY(turner_kernel_specialisation(constants, &count, kernel, &part->needs,
                                             part->bvh_depth, rebuild->scene));
     TURNER_TRY(rebuild->no_cache
-                   ? turner_spirv_reduce(&special, &kernel->spirv, constants, count)
-                   : turner_spirv_reduce_cached(&special, NULL, &kernel->spirv, constants, count));
+                   ? turner_spirv_reduce(&special, &kernel->spirv, constants, count, false)
+                   : turner_spirv_reduce_cached(&special, NULL, &kernel->spirv, constants, count,
+                                                false));
     enum turner_result result = still_wanted(rebuild);
     if (result == TURNER_OK)
         result = turner_spirv_validate(&special); /* half of what it was */

@@ -143,6 +143,7 @@ struct turner_kernel_constants turner_kernel_constants(const struct turner_needs
         {TURNER_CONSTANT_BVH_STACK, round_up(bvh_depth > 0 ? bvh_depth : 1, 8)},
         {TURNER_CONSTANT_METHODS, needs->methods},
         {TURNER_CONSTANT_PIXEL_COUNTS, needs->pixel_counts},
+        {TURNER_CONSTANT_SOON, needs->soon},
     }};
 }
 
@@ -182,9 +183,10 @@ static enum turner_result specialise(struct turner_renderer *renderer,
     TURNER_TRY(turner_kernel_specialisation(constants, &count, kernel, &renderer->needs,
                                             renderer->flat.max_depth, scene));
     return options->no_cache
-               ? turner_spirv_reduce(&renderer->special, &kernel->spirv, constants, count)
+               ? turner_spirv_reduce(&renderer->special, &kernel->spirv, constants, count,
+                                     options->soon)
                : turner_spirv_reduce_cached(&renderer->special, &statistics->kernel_cached,
-                                            &kernel->spirv, constants, count);
+                                            &kernel->spirv, constants, count, options->soon);
 }
 
 static enum turner_result build(struct turner_renderer *renderer,
@@ -295,6 +297,7 @@ enum turner_result turner_renderer_prepare(struct turner_renderer *renderer,
     struct turner_scene deep = deep_enough(scene);
     renderer->needs = turner_needs_of(&deep);
     renderer->needs.pixel_counts = turner_layers_want(options->layers, TURNER_LAYERS_OF_RAYS);
+    renderer->needs.soon = options->soon;
     if (options->unspecialised)
         renderer->needs.bits = TURNER_NEEDS_ALL;
     renderer->needs_of_scene = renderer->needs;

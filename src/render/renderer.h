@@ -43,15 +43,16 @@ enum turner_result turner_kernel_compile(struct turner_kernel *kernel, unsigned 
 void turner_kernel_destroy(struct turner_kernel *kernel);
 
 /* What specialises a kernel to a scene. */
+#define TURNER_OWN_CONSTANTS 6 /* TURNER_CONSTANT_… */
 struct turner_kernel_constants {
-    struct turner_constant at[5];
+    struct turner_constant at[TURNER_OWN_CONSTANTS];
 };
 
 /* `bvh_depth` is turner_flat.max_depth. */
 struct turner_kernel_constants turner_kernel_constants(const struct turner_needs *needs,
                                                        uint32_t bvh_depth);
 
-#define TURNER_KERNEL_CONSTANTS (5 + TURNER_PARAM_WORDS)
+#define TURNER_KERNEL_CONSTANTS (TURNER_OWN_CONSTANTS + TURNER_PARAM_WORDS)
 
 /* The same, and the kernel's const parameters with the scene's values. TURNER_USAGE when one does
  * not fit. */

@@ -17,3 +17,10 @@ add_custom_command(OUTPUT ${members}
     VERBATIM)
 target_sources(test_gpu_layout PRIVATE ${members})
 target_include_directories(test_gpu_layout PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/gpu)
+
+if(TARGET turner)
+    add_test(NAME gpu_absent_drivers COMMAND Python3::Interpreter
+        ${CMAKE_CURRENT_LIST_DIR}/absent_drivers.py)
+    set_tests_properties(gpu_absent_drivers PROPERTIES LABELS "device;plain" SKIP_RETURN_CODE 77
+        TIMEOUT 120 ENVIRONMENT "TURNER=$<TARGET_FILE:turner>")
+endif()

@@ -63,7 +63,7 @@ static void measure_stages(struct reload_bench *bench, double *seconds[STAGES], 
     clock[REDUCE] = turner_seconds();
     assert_ok(turner_kernel_specialisation(constants, &count, &kernel, &bench->renderer.needs,
                                            bench->renderer.flat.max_depth, bench->scene));
-    assert_ok(turner_spirv_reduce(&special, &kernel.spirv, constants, count));
+    assert_ok(turner_spirv_reduce(&special, &kernel.spirv, constants, count, false));
     clock[VALIDATE] = turner_seconds();
     assert_ok(turner_spirv_validate(&special));
     clock[PROGRAM] = turner_seconds();
