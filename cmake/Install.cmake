@@ -22,12 +22,9 @@ install(TARGETS libturner turner EXPORT turnerTargets
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     PUBLIC_HEADER DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-if(TARGET turner_oiio) # beside the library, found from wherever both lie
+if(TURNER_MODULES) # beside the library, found from wherever both lie
     set(turner_module_dir ${CMAKE_INSTALL_LIBDIR}/turner)
-    install(TARGETS turner_oiio LIBRARY DESTINATION ${turner_module_dir})
-    if(TARGET turner_window)
-        install(TARGETS turner_window LIBRARY DESTINATION ${turner_module_dir})
-    endif()
+    install(TARGETS ${turner_module_targets} LIBRARY DESTINATION ${turner_module_dir})
     file(RELATIVE_PATH turner_from_bin /${CMAKE_INSTALL_BINDIR} /${turner_module_dir})
     set_property(TARGET turner PROPERTY INSTALL_RPATH $ORIGIN/${turner_from_bin})
     set_property(TARGET libturner PROPERTY INSTALL_RPATH $ORIGIN/turner)

@@ -11,9 +11,7 @@
 
 #define LARGE ((size_t)4 << 20)
 
-/* Large pages for large arrays: fewer faults when they are filled, and when they are read at
- * random. */
-static void use_large_pages(void *memory, size_t bytes)
+void turner_use_large_pages(void *memory, size_t bytes)
 {
 #ifdef MADV_HUGEPAGE
     uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE), begin = (uintptr_t)memory;
@@ -37,7 +35,7 @@ static void *checked(void *memory, size_t count, size_t size)
 void *turner_calloc(size_t count, size_t size)
 {
     void *memory = checked(calloc(count, size), count, size);
-    use_large_pages(memory, count * size);
+    turner_use_large_pages(memory, count * size);
     return memory;
 }
 

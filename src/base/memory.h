@@ -11,6 +11,10 @@ void *turner_calloc(size_t count, size_t size);
 void *turner_realloc(void *memory, size_t count, size_t size);
 char *turner_strdup(const char *text);
 
+/* Asks for large pages where an array is large: fewer faults when it is filled, and when it is read
+ * at random. turner_calloc does. Before the array is touched. */
+void turner_use_large_pages(void *memory, size_t bytes);
+
 /* Makes room for one more element in an array that is described by (items, count, capacity).
  * Usage: *TURNER_PUSH(scene->spheres, scene->sphere_count, scene->sphere_capacity) = sphere; */
 void *turner_grow(void *items, size_t count, size_t *capacity, size_t size);

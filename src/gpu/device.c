@@ -9,6 +9,8 @@
 #include "gpu/fastest.h"
 #include "gpu/internal.h"
 
+#define MOST_DEVICES 64
+
 static enum turner_result fail_no_driver(void)
 {
     return turner_fail(TURNER_DEVICE,
@@ -52,15 +54,15 @@ static enum turner_result create_instance(VkInstance *instance, bool validation)
 static enum turner_result list_devices(VkInstance instance, VkPhysicalDevice **devices,
                                        struct turner_gpu_info **infos, uint32_t *count)
 {
-    *count = 0;
-    VkResult listed = vkEnumeratePhysicalDevices(instance, count, NULL);
+    *count = MOST_DEVICES; /* more are not looked at; to ask how many there are takes as long again */
+    *devices = turner_calloc(*count, sizeof **devices);
+    VkResult listed = vkEnumeratePhysicalDevices(instance, count, *devices);
     /* what the loader says when every driver failed to start */
     if (listed == VK_ERROR_INITIALIZATION_FAILED || (listed == VK_SUCCESS && *count == 0))
         return fail_no_driver();
-    VK_TRY(listed);
-    *devices = turner_calloc(*count, sizeof **devices);
+    if (listed != VK_INCOMPLETE)
+        VK_TRY(listed);
     *infos = turner_calloc(*count, sizeof **infos);
-    VK_TRY(vkEnumeratePhysicalDevices(instance, count, *devices));
     for (uint32_t i = 0; i < *count; i++) {
         TURNER_TRY(turner_gpu_describe(&(*infos)[i], (*devices)[i]));
         (*infos)[i].fastest = turner_fastest_load(&(*infos)[i]);

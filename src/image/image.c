@@ -21,6 +21,7 @@ enum turner_result turner_image_create(struct turner_image *image, int width, in
                                           "%.1f MiB of memory are free; choose a smaller size",
                            width, height, (double)bytes / 1048576, (double)available / 1048576);
     }
+    turner_use_large_pages(image->rgba, bytes);
     image->width = width;
     image->height = height;
     return TURNER_OK;

@@ -1,7 +1,5 @@
 /* Mesh files through assimp. Only the bare import is assimp's: its clean-up steps join vertices
  * and cut faces within tolerances of their own. */
-#include <assimp/cimport.h>
-#include <assimp/scene.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +8,8 @@
 #include <sys/stat.h>
 
 #include "base/memory.h"
+#include "base/module.h"
+#include "scene/assimp.h"
 #include "scene/polygon.h"
 #include "scene/readers.h"
 
@@ -364,12 +364,24 @@ static void hear(const char *line, char *user)
         snprintf(heard->first, sizeof heard->first, "%.*s", (int)strcspn(text + 2, "\n"), text + 2);
 }
 
-static const struct aiScene *import(const char *path, struct complaints *heard)
+static const struct turner_assimp *load_assimp(void)
+{
+#ifdef TURNER_ASSIMP_MODULE
+    static struct turner_module module = {TURNER_ASSIMP_MODULE, "turner_assimp_module",
+                                          "reads mesh files", NULL};
+    return turner_module_load(&module);
+#else
+    return turner_assimp_module();
+#endif
+}
+
+static const struct aiScene *import(const char *path, struct complaints *heard,
+                                    const struct turner_assimp *assimp)
 {
     struct aiLogStream stream = {hear, (char *)(void *)heard};
-    aiAttachLogStream(&stream);
-    const struct aiScene *file = aiImportFile(path, 0);
-    aiDetachLogStream(&stream);
+    assimp->attach_log(&stream);
+    const struct aiScene *file = assimp->import(path, 0);
+    assimp->detach_log(&stream);
     return file;
 }
 
@@ -378,18 +390,21 @@ enum turner_result turner_mesh_read_file(struct turner_mesh *mesh, const char *p
     *mesh = (struct turner_mesh){0};
     TURNER_TRY(check_file(path));
     TURNER_TRY(check_ply_header(path));
+    const struct turner_assimp *assimp = load_assimp();
+    if (!assimp)
+        return TURNER_DEVICE;
     struct complaints heard = {0};
-    const struct aiScene *file = import(path, &heard);
+    const struct aiScene *file = import(path, &heard, assimp);
     if (!file)
         return turner_fail(TURNER_BAD_INPUT, "%s: cannot be read as a mesh: %s", path,
-                           aiGetErrorString());
+                           assimp->error());
     struct reading r = {.path = path, .smooth = smooth,
                         .vertex_normals = strcasecmp(ending_of(path), ".stl") != 0};
     enum turner_result result =
         heard.indices ? turner_fail(TURNER_BAD_INPUT, "%s: faces use vertices that the file does "
                                                       "not have; repair the file", path)
                       : read_scene(&r, file);
-    aiReleaseImport(file);
+    assimp->release(file);
     turner_polygon_destroy(&r.polygon);
     if (result != TURNER_OK) {
         turner_mesh_destroy(&r.mesh);

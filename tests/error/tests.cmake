@@ -19,9 +19,7 @@ foreach(layer IN ITEMS base image scene reference bvh gpu render)
     target_link_libraries(error_measure PRIVATE turner_${layer})
 endforeach()
 set_target_properties(error_measure PROPERTIES LINKER_LANGUAGE CXX)
-if(TARGET turner_oiio) # reads the truths
-    add_dependencies(error_measure turner_oiio)
-endif()
+add_dependencies(error_measure turner_modules) # reads the truths
 
 # The estimate beside the truth: a bound on 99.9 % of the pixels, within a factor of 10 on the median
 # one. docs/error.md has more scenes, and which miss it.
