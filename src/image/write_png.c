@@ -11,6 +11,7 @@
  * filters tried on every row), in files 5 to 25 % larger. */
 #define LEVEL 1
 #define FILTER PNG_FILTER_SUB
+#define CHUNK ((size_t)1 << 20) /* bytes of the file written at once, at most */
 
 struct output {
     struct turner_atomic *file;
@@ -74,6 +75,7 @@ static bool write_all(png_structp png, png_infop info, const struct turner_forma
     describe(png, info, format, image, encoding);
     png_set_compression_level(png, LEVEL);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, FILTER);
+    png_set_compression_buffer_size(png, CHUNK);
     png_write_info(png, info);
     if (format->sample == TURNER_SAMPLE_U16)
         png_set_swap(png); /* the file's order is big-endian */
