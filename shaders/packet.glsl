@@ -88,25 +88,45 @@ float least_of_lanes(float v)
     return min(v, subgroupShuffleXor(v, 4u));
 }
 
-vec3 least_of_lanes(vec3 v)
+int common_to_lanes(int bits)
 {
-    return vec3(least_of_lanes(v.x), least_of_lanes(v.y), least_of_lanes(v.z));
+    bits &= subgroupShuffleXor(bits, 1u);
+    bits &= subgroupShuffleXor(bits, 2u);
+    return bits & subgroupShuffleXor(bits, 4u);
 }
 
-// Bounds of what the lanes have that are alive.
+// The axis of which this lane has what belongs to the beam.
+uint own_axis()
+{
+    return min(lane() >> 1, 2u);
+}
+
+// The least along this lane's axis of what all lanes have. Halves the lanes twice, and the half that
+// is left takes other axes.
+float least_along_axis(vec3 v)
+{
+    bool second = (lane() & 2u) != 0u, upper = (lane() & 4u) != 0u;
+    float xy = min(second ? v.y : v.x, subgroupShuffleXor(second ? v.x : v.y, 2u));
+    float z = min(v.z, subgroupShuffleXor(v.z, 2u));
+    float least = min(upper ? z : xy, subgroupShuffleXor(upper ? xy : z, 4u));
+    return min(least, subgroupShuffleXor(least, 1u));
+}
+
+float largest_of_axes(float v)
+{
+    v = max(v, subgroupShuffleXor(v, 2u));
+    return max(v, subgroupShuffleXor(v, 4u));
+}
+
+// Bounds of what the lanes have that are alive, along this lane's axis.
 struct bounds_t {
-    vec3 lo, hi;
+    float lo, hi;
 };
 
 bounds_t bounds_of_lanes(vec3 lo, vec3 hi, bool alive)
 {
     const vec3 far = vec3(3e38);
-    return bounds_t(least_of_lanes(alive ? lo : far), -least_of_lanes(alive ? -hi : far));
-}
-
-float size_of(bounds_t b)
-{
-    return largest(b.hi - b.lo);
+    return bounds_t(least_along_axis(alive ? lo : far), -least_along_axis(alive ? -hi : far));
 }
 
 // Where rays that end within t_max come from, seen from their ends; empty bounds where they are too
@@ -117,10 +137,11 @@ bounds_t ends_of_lanes(boxes_ray_t ray, vec3 direction, float t_max, bool alive)
     bounds_t starts = bounds_of_lanes(ray.below, ray.above, alive);
     bounds_t ends = bounds_of_lanes(end, end, alive);
     float length = least_of_lanes(alive ? t_max * largest(abs(direction)) : 3e38);
-    float pad = 2e-6 * max(max(largest(abs(starts.lo)), largest(abs(starts.hi))),
-                           max(largest(abs(ends.lo)), largest(abs(ends.hi)))); // for rounding
-    if (size_of(starts) + size_of(ends) > APART * length)
-        return bounds_t(vec3(1.0), vec3(-1.0));
+    float farthest = max(max(abs(starts.lo), abs(starts.hi)), max(abs(ends.lo), abs(ends.hi)));
+    float pad = 2e-6 * largest_of_axes(farthest); // for rounding
+    if (largest_of_axes(starts.hi - starts.lo) + largest_of_axes(ends.hi - ends.lo) >
+        APART * length)
+        return bounds_t(1.0, -1.0);
     return bounds_t(ends.lo - pad, ends.hi + pad);
 }
 
@@ -129,34 +150,34 @@ beam_t beam_of(boxes_ray_t ray, vec3 direction, float t_max, bool alive)
     beam_t beam;
     uvec3 negative = floatBitsToUint(ray.inverse) >> 31;
     int signs = int(negative.x | negative.y << 1 | negative.z << 2);
-    int all = least_of_lanes(alive ? signs : 7);
-    beam.possible = all == ~least_of_lanes(alive ? ~signs : ~0);
+    int shared_bits = common_to_lanes(alive ? signs | (~signs & 7) << 3 : 63);
+    int all = shared_bits & 7; // negative in every lane; the rest is positive in every lane, if:
+    beam.possible = (all ^ shared_bits >> 3) == 7;
     if (beam.possible) {
-        bounds_t from = bounds_t(vec3(subgroupBroadcast(ray.below.x, 0u),
-                                      subgroupBroadcast(ray.below.y, 0u),
-                                      subgroupBroadcast(ray.below.z, 0u)),
-                                 vec3(subgroupBroadcast(ray.above.x, 0u),
-                                      subgroupBroadcast(ray.above.y, 0u),
-                                      subgroupBroadcast(ray.above.z, 0u)));
+        uint axis = own_axis();
+        vec3 below = vec3(subgroupBroadcast(ray.below.x, 0u), subgroupBroadcast(ray.below.y, 0u),
+                          subgroupBroadcast(ray.below.z, 0u));
+        vec3 above = vec3(subgroupBroadcast(ray.above.x, 0u), subgroupBroadcast(ray.above.y, 0u),
+                          subgroupBroadcast(ray.above.z, 0u));
+        bounds_t from = bounds_t(below[axis], above[axis]);
         vec3 inverse = ray.inverse;
         beam.reach = 0;
-        if (goes_on(alive && (ray.below != from.lo || ray.above != from.hi))) {
+        if (goes_on(alive && (ray.below != below || ray.above != above))) {
             float reach = -least_of_lanes(alive ? -t_max : 0.0);
             if (reach < 1e30)
                 from = ends_of_lanes(ray, direction, t_max, alive);
-            beam.possible = reach < 1e30 && from.lo.x <= from.hi.x;
+            beam.possible = reach < 1e30 && from.lo <= from.hi;
             beam.reach = floatBitsToInt(reach * 1.000002);
             inverse = -inverse;
             all = ~all;
         }
         bounds_t spread = bounds_of_lanes(inverse, inverse, alive);
-        uint axis = min(lane() >> 1, 2u);
         bool leaving = (lane() & 1u) != 0u, turned = ((uint(all) >> axis) & 1u) != 0u;
         float pad = leaving ? 1.000001 : 1.0; // that of enter_box(), and its rounding
         beam.faces = lane() ^ uint(turned && lane() < 6u);
-        beam.start = lane() >= 6u ? 0.0 : leaving != turned ? from.lo[axis] : from.hi[axis];
-        beam.least = lane() < 6u ? spread.lo[axis] * pad : leaving ? 3e38 : 0.0;
-        beam.most = lane() < 6u ? spread.hi[axis] * pad : leaving ? 3e38 : 0.0;
+        beam.start = lane() >= 6u ? 0.0 : leaving != turned ? from.lo : from.hi;
+        beam.least = lane() < 6u ? spread.lo * pad : leaving ? 3e38 : 0.0;
+        beam.most = lane() < 6u ? spread.hi * pad : leaving ? 3e38 : 0.0;
     }
     return beam;
 }
