@@ -113,6 +113,10 @@ enum turner_result json_fail_key(const struct json_reader *reader, const struct 
 /* Puts the place before and the way after the message that a called function has left. */
 enum turner_result json_fail_within(const struct json_reader *reader,
                                     const struct json_value *value);
+/* The same of a function that was to read a file: what the machine lacks for it (TURNER_DEVICE)
+ * stays that, and is no fault of the scene's. */
+enum turner_result json_fail_file(const struct json_reader *reader,
+                                  const struct json_value *value, enum turner_result result);
 
 /* ---- reading one value; nothing is written on failure ---- */
 enum turner_result json_read_number(double *out, const struct json_reader *reader,

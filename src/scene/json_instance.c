@@ -125,7 +125,7 @@ static enum turner_result read_many(struct json_reader *reader, const struct tur
     TURNER_TRY(json_read_file_name(&path, reader, value));
     enum turner_result result = turner_scene_add_instances(reader->scene, like, path);
     free(path);
-    return result == TURNER_OK ? result : json_fail_within(reader, value);
+    return result == TURNER_OK ? result : json_fail_file(reader, value, result);
 }
 
 static enum turner_result read_instance(struct json_reader *reader, const struct json_value *value)

@@ -126,7 +126,7 @@ enum turner_result json_read_texture(uint32_t *image, struct json_reader *reader
     TURNER_TRY(json_read_file_name(&path, reader, value));
     enum turner_result result = turner_scene_texture(image, reader->scene, path);
     free(path);
-    return result == TURNER_OK ? result : json_fail_within(reader, value);
+    return result == TURNER_OK ? result : json_fail_file(reader, value, result);
 }
 
 /* ---- materials ---- */

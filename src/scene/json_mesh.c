@@ -165,7 +165,7 @@ static enum turner_result read_mesh(struct turner_mesh *mesh, struct json_reader
         result = turner_mesh_read_file(mesh, path, smooth ? make_smooth : -1);
         free(path);
         if (result != TURNER_OK)
-            result = json_fail_within(reader, file);
+            result = json_fail_file(reader, file, result);
     }
     if (result != TURNER_OK)
         turner_mesh_destroy(mesh);

@@ -97,6 +97,13 @@ enum turner_result json_fail_within(const struct json_reader *reader,
     return fail_at(reader, value, false, message);
 }
 
+enum turner_result json_fail_file(const struct json_reader *reader,
+                                  const struct json_value *value, enum turner_result result)
+{
+    enum turner_result failed = json_fail_within(reader, value);
+    return result == TURNER_DEVICE ? result : failed;
+}
+
 static enum turner_result fail_type(const struct json_reader *reader,
                                     const struct json_value *value, const char *expected)
 {

@@ -64,3 +64,15 @@ if(modules) # a static build has it linked in
         message(FATAL_ERROR "without its module turner ends with ${status}: ${said}")
     endif()
 endif()
+
+# ---- the same of that for mesh files ----
+file(GLOB modules ${prefix}/${LIBDIR}/turner/turner-assimp.*)
+if(modules)
+    run(${prefix}/bin/turner check ${prefix}/share/turner/scenes/mesh.json)
+    file(REMOVE ${modules})
+    execute_process(COMMAND ${prefix}/bin/turner check ${prefix}/share/turner/scenes/mesh.json
+                    RESULT_VARIABLE status ERROR_VARIABLE said)
+    if(NOT status EQUAL 4 OR NOT said MATCHES "turner-assimp.*cannot be loaded.*install turner")
+        message(FATAL_ERROR "without its module turner ends with ${status}: ${said}")
+    endif()
+endif()
