@@ -114,7 +114,8 @@ void turner_packer_create(struct turner_packer *packer, const struct turner_form
 }
 
 /* The same as quantise to 255 in a hundredth of the time: looked up by exponent and seven more bits,
- * between which lie two steps at most. Nobody could foretell branches here. */
+ * between which lie two steps at most, but for denormal floats. Whether the first two are taken
+ * nobody could foretell, so these are no branches. */
 static uint8_t find_sample(const struct turner_packer *packer, float v)
 {
     if (!(v > 0 && v <= FLT_MAX)) /* infinite and NaN: as encode does */
@@ -124,6 +125,8 @@ static uint8_t find_sample(const struct turner_packer *packer, float v)
     unsigned sample = packer->first[bits >> 16];
     sample += v >= packer->least[sample + 1];
     sample += v >= packer->least[sample + 1];
+    while (v >= packer->least[sample + 1])
+        sample++;
     return (uint8_t)sample;
 }
 
