@@ -18,7 +18,7 @@ enum turner_result turner_spirv_specialise(struct turner_spirv *out,
  * less than half of the work with it. (The pass of SPIRV-Tools 2023.1 that takes out what is not used
  * crashes on some functions that are called: all must be put in place.) With `soon` constants are
  * folded, what cannot run is taken out, and the rest is left to the driver: that takes a quarter of
- * the time here, and the driver's a little longer than it would otherwise. */
+ * the time here, and saves more than it costs the driver. */
 enum turner_result turner_spirv_reduce(struct turner_spirv *out, const struct turner_spirv *spirv,
                                        const struct turner_constant *constants, size_t count,
                                        bool soon);

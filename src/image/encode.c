@@ -113,7 +113,7 @@ void turner_packer_create(struct turner_packer *packer, const struct turner_form
     }
 }
 
-/* The same as quantise to 255 in a hundredth of the time: looked up by exponent and seven more bits,
+/* The same as quantise to 255 in a fraction of the time: looked up by exponent and seven more bits,
  * between which lie two steps at most, but for denormal floats. Whether the first two are taken
  * nobody could foretell, so these are no branches. */
 static uint8_t find_sample(const struct turner_packer *packer, float v)
