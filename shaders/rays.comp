@@ -6,17 +6,18 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
 #ifdef TURNER_RAY_QUERY
 #extension GL_EXT_ray_query : require
 #endif
 #ifdef TURNER_PACKET
-#extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #endif
 
 #include "scene.glsl"
 #include "whitted.glsl"
 #include "camera.glsl"
+#include "work.glsl"
 
 layout(local_size_x = TURNER_WORKGROUP * TURNER_WORKGROUP) in;
 
@@ -87,11 +88,8 @@ turner_gpu_ray sent_ray(ray_t ray, hit_t hit, uint index)
 }
 #endif
 
-void main()
+void trace_ray(uint index)
 {
-    scene = scene_block(dispatch.scene).the;
-    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    uint index = group * (TURNER_WORKGROUP * TURNER_WORKGROUP) + gl_LocalInvocationIndex;
     turner_gpu_ray own = NO_RAY;
 #ifdef TURNER_RAYS_SEND
     bool camera = dispatch.first == TURNER_SEND_CAMERA;
@@ -113,8 +111,16 @@ void main()
         own = NO_RAY;
     ray_array(dispatch.pixels).at[index] = own;
 #else
-    hit_array(dispatch.counters).at[index] =
+    hit_array(dispatch.hits).at[index] =
         turner_gpu_hit(search.found ? float(search.hit.t) : INFINITY, search.hit.id,
                        search.hit.instance);
 #endif
+}
+
+void main()
+{
+    scene = scene_block(dispatch.scene).the;
+    uint index;
+    for (bool first = true; take_work(first, index); first = false)
+        trace_ray(index);
 }

@@ -6,17 +6,19 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_vote : require
 #ifdef TURNER_RAY_QUERY
 #extension GL_EXT_ray_query : require
 #endif
 #ifdef TURNER_PACKET
-#extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #endif
 
 #include "scene.glsl"
 #include "whitted.glsl"
 #include "camera.glsl"
+#include "work.glsl"
 
 layout(local_size_x = TURNER_WORKGROUP * TURNER_WORKGROUP) in;
 
@@ -37,11 +39,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer pixel_count_
     turner_gpu_pixel_counts at[];
 };
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer counter_block
-{
-    turner_gpu_counters the;
-};
-
 // Place of a lane in its 8×8 block along a Morton curve: neighbours in a subgroup are neighbours in
 // the picture.
 uvec2 morton(uint i)
@@ -49,6 +46,9 @@ uvec2 morton(uint i)
     return uvec2((i & 1u) | ((i >> 1) & 2u) | ((i >> 2) & 4u),
                  ((i >> 1) & 1u) | ((i >> 2) & 2u) | ((i >> 3) & 4u));
 }
+
+const turner_gpu_counters NO_COUNTS =
+    turner_gpu_counters(uint[](0u, 0u, 0u, 0u, 0u, 0u, 0u), uint[](0u, 0u, 0u, 0u, 0u, 0u, 0u), 0u, 0u);
 
 void add_counts(turner_gpu_counters counts)
 {
@@ -66,39 +66,35 @@ void add_counts(turner_gpu_counters counts)
         atomicMax(total.the.largest_depth, depth);
 }
 
+// Whether their sum over the lanes will soon not fit. To add them up more often than need be is a
+// tenth of a picture's time.
+bool are_many(turner_gpu_counters counts)
+{
+    return subgroupAny(((counts.low[TURNER_COUNT_REFLECTED] | counts.low[TURNER_COUNT_REFRACTED] |
+                         counts.low[TURNER_COUNT_SHADOW]) >> 24) != 0u);
+}
+
 // a / b for what is below 2^22: a quotient of integers is made lane by lane.
 uint quotient(uint a, uint b)
 {
     return uint((float(a) + 0.5) / float(b));
 }
 
-// The place of this workgroup among all. A CPU device deals them out to its threads beforehand, in
-// consecutive pieces of which one may have all the sky; so places are taken in turn for the pieces.
-uvec2 workgroup_place()
-{
-    uint width = gl_NumWorkGroups.x, i = gl_WorkGroupID.y * width + gl_WorkGroupID.x;
-    uint pieces = max(dispatch.pieces, 1u);
-    uint size = quotient(width * gl_NumWorkGroups.y, pieces);
-    if (i < size * pieces) {
-        uint piece = quotient(i, size);
-        i = (i - piece * size) * pieces + piece;
-    }
-    uint row = quotient(i, width);
-    return uvec2(i - row * width, row);
-}
-
-// The sample of this lane, or false where there is none: its place in the picture and in `pixels`.
-bool sample_of_lane(out vec2 position, out uint index)
+// Sample `item`, or false where there is none: its place in the picture and in `pixels`.
+bool find_sample(uint item, out vec2 position, out uint index)
 {
     position = vec2(0.0);
     if (dispatch.positions != 0ul) {
-        index = workgroup_place().x * (TURNER_WORKGROUP * TURNER_WORKGROUP) + gl_LocalInvocationIndex;
+        index = item;
         if (index >= dispatch.count)
             return false;
         position = position_array(dispatch.positions).at[index];
         return true;
     }
-    uvec2 pixel = workgroup_place() * TURNER_WORKGROUP + morton(gl_LocalInvocationIndex);
+    const uint size = TURNER_WORKGROUP * TURNER_WORKGROUP;
+    uint width = (dispatch.tile_width + TURNER_WORKGROUP - 1u) / TURNER_WORKGROUP;
+    uint row = quotient(item / size, width);
+    uvec2 pixel = uvec2(item / size - row * width, row) * TURNER_WORKGROUP + morton(item % size);
     index = pixel.y * dispatch.tile_width + pixel.x;
     position = vec2(uvec2(dispatch.tile_x, dispatch.tile_y) + pixel) +
                vec2(dispatch.sample_x, dispatch.sample_y);
@@ -123,20 +119,25 @@ void main()
     scene = scene_block(dispatch.scene).the;
     scene.max_depth = dispatch.max_depth;
     scene.cutoff = dispatch.cutoff;
-    turner_gpu_counters counts;
-    for (uint kind = 0u; kind < TURNER_COUNTS; kind++)
-        counts.low[kind] = 0u;
-    counts.largest_depth = 0u;
-
-    vec2 position;
-    uint index;
-    bool sampled = sample_of_lane(position, index);
-    vec4 result = whitted(camera_ray(position), sampled, counts);
-    if (sampled) {
-        pixel_array pixels = pixel_array(dispatch.pixels);
-        pixels.at[index] = dispatch.first != 0u ? result : pixels.at[index] + result;
-        if (PIXEL_COUNTS)
-            count_pixel(index, counts);
+    turner_gpu_counters counts = NO_COUNTS;
+    uint item;
+    for (bool first = true;; first = false) {
+        bool more = take_work(first, item);
+        if (!more || PIXEL_COUNTS || are_many(counts)) {
+            add_counts(counts);
+            counts = NO_COUNTS;
+        }
+        if (!more)
+            break;
+        vec2 position;
+        uint index;
+        bool sampled = find_sample(item, position, index);
+        vec4 result = whitted(camera_ray(position), sampled, counts);
+        if (sampled) {
+            pixel_array pixels = pixel_array(dispatch.pixels);
+            pixels.at[index] = dispatch.first != 0u ? result : pixels.at[index] + result;
+            if (PIXEL_COUNTS)
+                count_pixel(index, counts);
+        }
     }
-    add_counts(counts);
 }

@@ -310,6 +310,7 @@ TURNER_STRUCT(turner_gpu_counters)
     uint low[TURNER_COUNTS];
     uint high[TURNER_COUNTS];
     uint largest_depth;
+    uint packet; /* the next to be taken, turner_gpu_dispatch.packets */
 };
 
 /* The same of one pixel. */
@@ -325,7 +326,8 @@ TURNER_STRUCT(turner_gpu_dispatch)
     TURNER_UINT64 scene;
     TURNER_UINT64 pixels;    /* 4 floats a pixel of the tile or sample of the list: sums of
                                 radiance and pruned */
-    TURNER_UINT64 counters;  /* rays.comp: the hits */
+    TURNER_UINT64 counters;
+    TURNER_UINT64 hits;      /* rays.comp */
     TURNER_UINT64 pixel_counts; /* as many as `pixels`, with TURNER_CONSTANT_PIXEL_COUNTS */
     TURNER_UINT64 params;    /* values of the live parameters, where the kernel has any */
     TURNER_UINT64 positions; /* list: `count` places in the picture, in pixels; or 0: a tile.
@@ -340,8 +342,8 @@ TURNER_STRUCT(turner_gpu_dispatch)
     uint count;
     uint max_depth;
     float cutoff;
-    uint pieces; /* that the device makes of the workgroups, consecutive ones, for its threads; 0 and
-                    1: none */
+    uint packets; /* of as many samples or rays as a subgroup has lanes, to be taken one by one; 0:
+                     each lane has its own */
 };
 
 /* What the ray through a pixel's centre meets, and the lights that are seen from there

@@ -1,6 +1,7 @@
 /* Tracing: tiles of the picture or lists of samples, in pieces of bounded time, and the picture made
  * of them. */
 #include <assert.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "render/adaptive.h"
@@ -37,28 +38,44 @@ static struct turner_gpu_dispatch dispatch_of(const struct turner_renderer *rend
         .scene = renderer->scene.arrays[TURNER_ARRAY_SCENE].address,
         .pixels = renderer->pixels.address,
         .params = renderer->params.buffer.address,
-        .counters = renderer->counters.address,
         .pixel_counts = renderer->pixel_counts.address,
         .first = 1,
         .max_depth = (uint32_t)renderer->settings.depth,
         .cutoff = (float)renderer->settings.cutoff,
-        .pieces = renderer->gpu->info.threads,
     };
 }
 
+void turner_renderer_dispatch(VkCommandBuffer commands, const struct turner_renderer *renderer,
+                              struct turner_gpu_dispatch push, uint32_t groups)
+{
+    const struct turner_gpu_info *info = &renderer->gpu->info;
+    push.counters = renderer->counters.address;
+    if (info->software) {
+        const uint32_t lanes = TURNER_WORKGROUP * TURNER_WORKGROUP;
+        push.packets = groups * (lanes / info->subgroup_size);
+        groups = groups < info->threads ? groups : info->threads;
+        vkCmdFillBuffer(commands, renderer->counters.buffer,
+                        offsetof(struct turner_gpu_counters, packet), sizeof(uint32_t), 0);
+        turner_gpu_barrier(commands);
+    }
+    uint32_t rows = (groups - 1) / info->max_workgroup_count[0] + 1;
+    turner_program_dispatch(commands, &renderer->program, &push, (groups + rows - 1) / rows, rows,
+                            1);
+}
+
 static enum turner_result submit(struct turner_renderer *renderer,
-                                 const struct turner_gpu_dispatch *push, uint32_t x, uint32_t y)
+                                 const struct turner_gpu_dispatch *push, uint32_t groups)
 {
     VkCommandBuffer commands;
     TURNER_TRY(turner_gpu_begin(renderer->gpu, &commands));
-    turner_program_dispatch(commands, &renderer->program, push, x, y, 1);
+    turner_renderer_dispatch(commands, renderer, *push, groups);
     return turner_gpu_submit_wait(renderer->gpu, commands);
 }
 
 enum turner_result turner_renderer_warm(struct turner_renderer *renderer)
 {
     struct turner_gpu_dispatch push = dispatch_of(renderer); /* of a tile without pixels */
-    TURNER_TRY(submit(renderer, &push, 1, 1));
+    TURNER_TRY(submit(renderer, &push, 1));
     return renderer->accurate ? turner_renderer_warm(renderer->accurate) : TURNER_OK;
 }
 
@@ -75,8 +92,8 @@ static enum turner_result trace_sample(struct turner_renderer *renderer, struct 
     push.sample_x = (float)sample_x;
     push.sample_y = (float)sample_y;
     push.first = sample == 0;
-    return submit(renderer, &push, (push.tile_width + TURNER_WORKGROUP - 1) / TURNER_WORKGROUP,
-                  (push.tile_height + TURNER_WORKGROUP - 1) / TURNER_WORKGROUP);
+    return submit(renderer, &push, (push.tile_width + TURNER_WORKGROUP - 1) / TURNER_WORKGROUP *
+                                       ((push.tile_height + TURNER_WORKGROUP - 1) / TURNER_WORKGROUP));
 }
 
 static enum turner_result trace_list(struct turner_renderer *renderer, int depth, double cutoff,
@@ -91,7 +108,7 @@ static enum turner_result trace_list(struct turner_renderer *renderer, int depth
     push.max_depth = (uint32_t)depth;
     push.cutoff = (float)cutoff;
     memcpy(renderer->positions.mapped, positions, count * sizeof *positions);
-    TURNER_TRY(submit(renderer, &push, (push.count + group - 1) / group, 1));
+    TURNER_TRY(submit(renderer, &push, (push.count + group - 1) / group));
     memcpy(results, renderer->pixels.mapped, count * sizeof *results);
     const struct turner_gpu_pixel_counts *took = renderer->pixel_counts.mapped;
     for (size_t i = 0; counts && i < count; i++)

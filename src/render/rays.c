@@ -9,15 +9,10 @@ size_t turner_camera_ray_count(int width, int height)
     return columns * rows * group;
 }
 
-/* As many workgroups as `count` lanes take, in two dimensions where one does not suffice. */
 static void dispatch(VkCommandBuffer commands, const struct turner_renderer *renderer,
                      const struct turner_gpu_dispatch *push)
 {
-    uint32_t most = renderer->gpu->info.max_workgroup_count[0];
-    uint32_t groups = (push->count + group - 1) / group;
-    uint32_t rows = (groups + most - 1) / most;
-    turner_program_dispatch(commands, &renderer->program, push, (groups + rows - 1) / rows, rows,
-                            1);
+    turner_renderer_dispatch(commands, renderer, *push, (push->count - 1) / group + 1);
 }
 
 enum turner_result turner_ray_list_create(struct turner_ray_list *list, struct turner_gpu *gpu,
@@ -50,7 +45,7 @@ enum turner_result turner_ray_list_trace(double *seconds, struct turner_ray_list
         .scene = renderer->scene.arrays[TURNER_ARRAY_SCENE].address,
         .pixels = list->rays.address,
         .params = renderer->params.buffer.address,
-        .counters = list->hits.address,
+        .hits = list->hits.address,
         .count = (uint32_t)list->count,
     };
     VkCommandBuffer commands;

@@ -54,3 +54,6 @@ turner_device_test(methods Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/method
 
 turner_device_test(beams Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/beams.py
     $<TARGET_FILE:turner>)
+
+turner_device_test(work Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/work.py
+    $<TARGET_FILE:turner> ${PROJECT_SOURCE_DIR})
