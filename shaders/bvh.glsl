@@ -18,7 +18,7 @@ void traverse(inout search_t search, ray_t ray)
     uint override_material = TURNER_NO_INDEX;
     bool top = NEEDS_ANY(TURNER_NEEDS_INSTANCES);
     instance_array instances = instance_array(scene.instances);
-    uint node = top ? scene.root : instances.at[0].root;
+    uint node = scene.root;
     real3 origin = ray.origin, direction = ray.direction;
     boxes_ray_t boxes = boxes_ray_of(origin, direction);
     shear_t shear = shear_of(direction);

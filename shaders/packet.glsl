@@ -378,11 +378,11 @@ void walk_group(inout search_t search, uint root, uint instance, uint override_m
 
 void traverse(inout search_t search, ray_t ray)
 {
-    instance_array instances = instance_array(scene.instances);
     if (!NEEDS_ANY(TURNER_NEEDS_INSTANCES)) {
-        walk_group(search, instances.at[0].root, 0u, TURNER_NO_INDEX, ray.origin, ray.direction);
+        walk_group(search, scene.root, 0u, TURNER_NO_INDEX, ray.origin, ray.direction);
         return;
     }
+    instance_array instances = instance_array(scene.instances);
     boxes_ray_t boxes = boxes_ray_of(ray.origin, ray.direction);
     int t_max = t_max_of(search);
     walk_t walk = walk_from(scene.root, ASIDE);

@@ -88,6 +88,14 @@ turner_gpu_ray sent_ray(ray_t ray, hit_t hit, uint index)
 }
 #endif
 
+turner_gpu_ray ray_at(uint index)
+{
+    uint64_t at = dispatch.pixels + uint64_t(index) * 32ul;
+    uint kind, t_max;
+    vec3 origin = vector_at(at, 0u, t_max), direction = vector_at(at, 2u, kind);
+    return turner_gpu_ray(origin, uintBitsToFloat(t_max), direction, kind);
+}
+
 void trace_ray(uint index)
 {
     turner_gpu_ray own = NO_RAY;
@@ -97,7 +105,7 @@ void trace_ray(uint index)
     bool camera = false;
 #endif
     if (index < dispatch.count && !camera)
-        own = ray_array(dispatch.pixels).at[index];
+        own = ray_at(index);
     ray_t ray = ray_t(real3(own.origin), real3(own.direction), real(own.t_max), 0.0);
     search_t search = trace(ray, own.kind == TURNER_RAY_ANY);
     if (index >= dispatch.count)
@@ -120,7 +128,7 @@ void trace_ray(uint index)
 void main()
 {
     scene = scene_block(dispatch.scene).the;
-    uint index;
+    uint index = 0u;
     for (bool first = true; take_work(first, index); first = false)
         trace_ray(index);
 }

@@ -7,7 +7,6 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
-#extension GL_KHR_shader_subgroup_vote : require
 #ifdef TURNER_RAY_QUERY
 #extension GL_EXT_ray_query : require
 #endif
@@ -70,8 +69,8 @@ void add_counts(turner_gpu_counters counts)
 // tenth of a picture's time.
 bool are_many(turner_gpu_counters counts)
 {
-    return subgroupAny(((counts.low[TURNER_COUNT_REFLECTED] | counts.low[TURNER_COUNT_REFRACTED] |
-                         counts.low[TURNER_COUNT_SHADOW]) >> 24) != 0u);
+    return goes_on(((counts.low[TURNER_COUNT_REFLECTED] | counts.low[TURNER_COUNT_REFRACTED] |
+                     counts.low[TURNER_COUNT_SHADOW]) >> 24) != 0u);
 }
 
 // a / b for what is below 2^22: a quotient of integers is made lane by lane.
@@ -91,10 +90,9 @@ bool find_sample(uint item, out vec2 position, out uint index)
         position = position_array(dispatch.positions).at[index];
         return true;
     }
-    const uint size = TURNER_WORKGROUP * TURNER_WORKGROUP;
     uint width = (dispatch.tile_width + TURNER_WORKGROUP - 1u) / TURNER_WORKGROUP;
-    uint row = quotient(item / size, width);
-    uvec2 pixel = uvec2(item / size - row * width, row) * TURNER_WORKGROUP + morton(item % size);
+    uint row = quotient(item / GROUP, width);
+    uvec2 pixel = uvec2(item / GROUP - row * width, row) * TURNER_WORKGROUP + morton(item % GROUP);
     index = pixel.y * dispatch.tile_width + pixel.x;
     position = vec2(uvec2(dispatch.tile_x, dispatch.tile_y) + pixel) +
                vec2(dispatch.sample_x, dispatch.sample_y);
@@ -120,7 +118,7 @@ void main()
     scene.max_depth = dispatch.max_depth;
     scene.cutoff = dispatch.cutoff;
     turner_gpu_counters counts = NO_COUNTS;
-    uint item;
+    uint item = 0u;
     for (bool first = true;; first = false) {
         bool more = take_work(first, item);
         if (!more || PIXEL_COUNTS || are_many(counts)) {

@@ -262,7 +262,7 @@ TURNER_STRUCT(turner_gpu_scene)
     TURNER_UINT64 inside; /* media list of the eye (media.glsl) */
     TURNER_UINT64 primitive_rests; /* these two only for kernels that compute in double */
     TURNER_UINT64 instance_rests;
-    uint root;          /* of the top level over instances */
+    uint root;          /* of the top level over instances; of the only group, where there is none */
     uint plane_count;
     uint light_count;
     uint max_depth;
@@ -310,7 +310,7 @@ TURNER_STRUCT(turner_gpu_counters)
     uint low[TURNER_COUNTS];
     uint high[TURNER_COUNTS];
     uint largest_depth;
-    uint packet; /* the next to be taken, turner_gpu_dispatch.packets */
+    uint group; /* the next to be taken of turner_gpu_dispatch.groups */
 };
 
 /* The same of one pixel. */
@@ -342,8 +342,8 @@ TURNER_STRUCT(turner_gpu_dispatch)
     uint count;
     uint max_depth;
     float cutoff;
-    uint packets; /* of as many samples or rays as a subgroup has lanes, to be taken one by one; 0:
-                     each lane has its own */
+    uint groups; /* of TURNER_WORKGROUP² samples or rays, to be taken one by one; 0: each workgroup
+                    has its own */
 };
 
 /* What the ray through a pixel's centre meets, and the lights that are seen from there

@@ -68,8 +68,8 @@ int least_of_lanes(int v)
 }
 #endif
 
-// Whether a lane that has work left, or has none, goes through the loop that calls trace() again:
-// in a packet all lanes do while one has.
+// Whether a lane that has work, or has none, goes where it is done, as to the loop that calls trace()
+// again: in a packet all lanes do while one has.
 bool goes_on(bool work)
 {
 #ifdef TURNER_PACKET

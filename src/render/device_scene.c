@@ -301,7 +301,9 @@ static struct turner_gpu_scene scene_block(const struct turner_device_scene *dev
         .lights = arrays[TURNER_ARRAY_LIGHTS].address,
         .primitive_rests = arrays[TURNER_ARRAY_PRIMITIVE_RESTS].address,
         .instance_rests = arrays[TURNER_ARRAY_INSTANCE_RESTS].address,
-        .root = flat->root,
+        .root = needs->bits & TURNER_NEEDS_INSTANCES
+                    ? flat->root
+                    : flat->groups[flat->instance_groups[0]].root,
         .plane_count = (uint32_t)scene->plane_count,
         .light_count = (uint32_t)scene->light_count,
         .max_depth = (uint32_t)settings->depth,

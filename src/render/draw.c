@@ -51,11 +51,10 @@ void turner_renderer_dispatch(VkCommandBuffer commands, const struct turner_rend
     const struct turner_gpu_info *info = &renderer->gpu->info;
     push.counters = renderer->counters.address;
     if (info->software) {
-        const uint32_t lanes = TURNER_WORKGROUP * TURNER_WORKGROUP;
-        push.packets = groups * (lanes / info->subgroup_size);
+        push.groups = groups;
         groups = groups < info->threads ? groups : info->threads;
         vkCmdFillBuffer(commands, renderer->counters.buffer,
-                        offsetof(struct turner_gpu_counters, packet), sizeof(uint32_t), 0);
+                        offsetof(struct turner_gpu_counters, group), sizeof(uint32_t), 0);
         turner_gpu_barrier(commands);
     }
     uint32_t rows = (groups - 1) / info->max_workgroup_count[0] + 1;
@@ -92,8 +91,9 @@ static enum turner_result trace_sample(struct turner_renderer *renderer, struct 
     push.sample_x = (float)sample_x;
     push.sample_y = (float)sample_y;
     push.first = sample == 0;
-    return submit(renderer, &push, (push.tile_width + TURNER_WORKGROUP - 1) / TURNER_WORKGROUP *
-                                       ((push.tile_height + TURNER_WORKGROUP - 1) / TURNER_WORKGROUP));
+    uint32_t columns = (push.tile_width + TURNER_WORKGROUP - 1) / TURNER_WORKGROUP;
+    uint32_t rows = (push.tile_height + TURNER_WORKGROUP - 1) / TURNER_WORKGROUP;
+    return submit(renderer, &push, columns * rows);
 }
 
 static enum turner_result trace_list(struct turner_renderer *renderer, int depth, double cutoff,

@@ -101,7 +101,7 @@ def shader_fault(name, old, new, message):
 
 shader_fault("with_unknown_name", "scene_block(dispatch.scene).the", "nonsense",
              ["shaders/render.comp:LINE:COLUMN: 'nonsense' : undeclared identifier", "\n    TEXT\n"])
-shader_fault("with_syntax_error", "uint item;", "uint item",
+shader_fault("with_syntax_error", "uint item = 0u;", "uint item = 0u",
              ["shaders/render.comp:", "syntax error"])
 shader_fault("with_missing_include", '#include "whitted.glsl"', '#include "whited.glsl"',
              ["shaders/render.comp:LINE:1: ", '"whited.glsl" is neither in shaders, nor built into '
