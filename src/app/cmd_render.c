@@ -191,6 +191,8 @@ static enum turner_result render(struct arguments *a, struct turner_scene *scene
     turner_progress_end(&a->bar);
     if (result != TURNER_OK)
         goto done;
+    if (!a->watching && !a->path)
+        turner_opening_close(opening);
     double start = turner_seconds();
     TURNER_TRY_DONE(turner_picture_write(a->output, scene, &image, statistics, &a->layers));
     statistics->seconds_write = turner_seconds() - start;

@@ -41,11 +41,25 @@ enum turner_result turner_opening_finish(struct turner_opening *opening)
     return opening->message ? turner_fail(opening->result, "%s", opening->message) : TURNER_OK;
 }
 
+static void *close_device(void *user)
+{
+    struct turner_opening *opening = user;
+    if (opening->begun && opening->result == TURNER_OK)
+        turner_gpu_destroy(&opening->gpu);
+    opening->begun = false;
+    return NULL;
+}
+
+void turner_opening_close(struct turner_opening *opening)
+{
+    wait_for(opening);
+    opening->threaded = pthread_create(&opening->thread, NULL, close_device, opening) == 0;
+}
+
 void turner_opening_destroy(struct turner_opening *opening)
 {
     wait_for(opening);
-    if (opening->begun && opening->result == TURNER_OK)
-        turner_gpu_destroy(&opening->gpu);
+    close_device(opening);
     free(opening->message);
     *opening = (struct turner_opening){0};
 }

@@ -33,7 +33,10 @@ enum turner_result turner_opening_prepare(struct turner_renderer *renderer,
                                           const struct turner_render_options *options,
                                           struct turner_statistics *statistics);
 
-/* Waits, if need be, and closes the device; nothing where all is 0. */
+/* Closes the device in a thread of its own, while the caller does what needs none. */
+void turner_opening_close(struct turner_opening *opening);
+
+/* Waits, if need be, and closes the device, if it is open; nothing where all is 0. */
 void turner_opening_destroy(struct turner_opening *opening);
 
 /* turner_render, with the options' device being opened already. */
