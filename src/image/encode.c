@@ -6,6 +6,7 @@
 #include <strings.h>
 
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "image/codec.h"
 
 /* IEC 61966-2-1:1999, 5.2 and 5.3, with the constants of its amendment 1. */
@@ -130,11 +131,20 @@ static uint8_t find_sample(const struct turner_packer *packer, float v)
     return (uint8_t)sample;
 }
 
-void turner_packer_rows(void *samples, const struct turner_packer *packer, int row, int rows)
+struct packing {
+    const struct turner_packer *packer;
+    uint8_t *samples;
+    int first; /* row */
+};
+
+static void pack_row(void *user, uint32_t row)
 {
+    const struct packing *packing = user;
+    const struct turner_packer *packer = packing->packer;
     const struct turner_image *image = packer->image;
-    const float *rgba = image->rgba + (size_t)row * (size_t)image->width * 4;
-    size_t pixels = (size_t)image->width * (size_t)rows;
+    size_t pixels = (size_t)image->width, size = pixels * turner_format_pixel(packer->format);
+    const float *rgba = image->rgba + ((size_t)packing->first + row) * pixels * 4;
+    void *samples = packing->samples + row * size;
     for (size_t i = 0; i < pixels; i++) {
         for (size_t c = 0; c < 3; c++) {
             float v = rgba[i * 4 + c];
@@ -152,6 +162,15 @@ void turner_packer_rows(void *samples, const struct turner_packer *packer, int r
             }
         }
     }
+}
+
+void turner_packer_rows(void *samples, const struct turner_packer *packer, int row, int rows)
+{
+    struct packing packing = {packer, samples, row};
+    if (rows > 1)
+        turner_parallel_for((uint32_t)rows, pack_row, &packing);
+    else
+        pack_row(&packing, 0);
 }
 
 enum turner_result turner_image_check_channels(const char *path)

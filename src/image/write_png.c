@@ -1,4 +1,4 @@
-/* PNG through libpng, row after row. */
+/* PNG through libpng, row after row, of which many are packed at once. */
 #include <png.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -12,6 +12,7 @@
 #define LEVEL 1
 #define FILTER PNG_FILTER_SUB
 #define CHUNK ((size_t)1 << 20) /* bytes of the file written at once, at most */
+#define BAND ((size_t)4 << 20)  /* bytes of rows packed at once, at most, but for one row */
 
 struct output {
     struct turner_atomic *file;
@@ -68,8 +69,9 @@ static void describe(png_structp png, png_infop info, const struct turner_format
 static bool write_all(png_structp png, png_infop info, const struct turner_format *format,
                       const struct turner_image *image,
                       const struct turner_image_encoding *encoding,
-                      const struct turner_packer *packer, uint8_t *row)
+                      const struct turner_packer *packer, uint8_t *band, int rows)
 {
+    size_t size = (size_t)image->width * turner_format_pixel(format);
     if (setjmp(png_jmpbuf(png)))
         return false;
     describe(png, info, format, image, encoding);
@@ -80,8 +82,9 @@ static bool write_all(png_structp png, png_infop info, const struct turner_forma
     if (format->sample == TURNER_SAMPLE_U16)
         png_set_swap(png); /* the file's order is big-endian */
     for (int y = 0; y < image->height; y++) {
-        turner_packer_rows(row, packer, y, 1);
-        png_write_row(png, row);
+        if (y % rows == 0)
+            turner_packer_rows(band, packer, y, image->height - y < rows ? image->height - y : rows);
+        png_write_row(png, band + (size_t)(y % rows) * size);
     }
     png_write_end(png, info);
     return true;
@@ -99,11 +102,13 @@ enum turner_result turner_encode_png(struct turner_atomic *file, const struct tu
     if (info) {
         png_set_write_fn(png, &output, append, stay);
         png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
-        uint8_t *row = turner_calloc((size_t)image->width, turner_format_pixel(format));
+        size_t size = (size_t)image->width * turner_format_pixel(format);
+        int rows = size < BAND ? (int)(BAND / size) : 1;
+        uint8_t *band = turner_calloc((size_t)(rows < image->height ? rows : image->height), size);
         struct turner_packer packer;
         turner_packer_create(&packer, format, image, encoding);
-        written = write_all(png, info, format, image, encoding, &packer, row);
-        free(row);
+        written = write_all(png, info, format, image, encoding, &packer, band, rows);
+        free(band);
     }
     png_destroy_write_struct(&png, &info);
     if (!written)

@@ -149,7 +149,7 @@ def broken(call, **what):
     """The environment that breaks a call (break_write.c)."""
     env = {"LD_PRELOAD": os.environ["TURNER_FAULT_LIBRARY"], "TURNER_BREAK": call}
     if SANITIZED:
-        env["ASAN_OPTIONS"] = "verify_asan_link_order=0"
+        env["ASAN_OPTIONS"] = os.environ.get("ASAN_OPTIONS", "") + ":verify_asan_link_order=0"
     return env | {"TURNER_BREAK_" + key.upper(): str(int(value)) for key, value in what.items()}
 
 
