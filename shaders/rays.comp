@@ -88,6 +88,7 @@ turner_gpu_ray sent_ray(ray_t ray, hit_t hit, uint index)
 }
 #endif
 
+// In words, as in load.glsl.
 turner_gpu_ray ray_at(uint index)
 {
     uint64_t at = dispatch.pixels + uint64_t(index) * 32ul;

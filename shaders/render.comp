@@ -47,7 +47,8 @@ uvec2 morton(uint i)
 }
 
 const turner_gpu_counters NO_COUNTS =
-    turner_gpu_counters(uint[](0u, 0u, 0u, 0u, 0u, 0u, 0u), uint[](0u, 0u, 0u, 0u, 0u, 0u, 0u), 0u, 0u);
+    turner_gpu_counters(uint[](0u, 0u, 0u, 0u, 0u, 0u, 0u), uint[](0u, 0u, 0u, 0u, 0u, 0u, 0u), 0u,
+                        0u);
 
 void add_counts(turner_gpu_counters counts)
 {

@@ -165,10 +165,11 @@ enum turner_result turner_renderer_paint(struct turner_renderer *renderer,
 enum turner_result turner_renderer_move(struct turner_renderer *renderer,
                                         const struct turner_scene *scene, bool *fits);
 
+struct turner_gpu_dispatch;
+
 /* Records a dispatch of the kernel, of render.comp or rays.comp, over `groups` > 0 pieces of
  * TURNER_WORKGROUP² samples or rays; push.counters and push.groups are filled in. The threads of a
  * CPU device take them one by one (shaders/work.glsl). */
-struct turner_gpu_dispatch;
 void turner_renderer_dispatch(VkCommandBuffer commands, const struct turner_renderer *renderer,
                               struct turner_gpu_dispatch push, uint32_t groups);
 

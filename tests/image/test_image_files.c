@@ -137,6 +137,24 @@ static void exposure_curve_and_clamping(void **state)
     turner_image_destroy(&image);
 }
 
+/* More rows than are packed at once: each sample comes back where it was. */
+static void rows_of_large_pictures(void **state)
+{
+    (void)state;
+    struct turner_image image;
+    const struct turner_image_encoding encoding = {.linear = true};
+    assert_int_equal(turner_image_create(&image, 1237, 1291), TURNER_OK);
+    for (uint32_t i = 0; i < 1237 * 1291 * 4; i++)
+        image.rgba[i] = (float)(i * 2654435761u >> 24) / 255.f;
+    static const char *const names[] = {"a.png", "a.16.png"};
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
+        struct turner_image back = through(&image, names[n], &encoding, false);
+        assert_true(largest(&back, &image) < 1e-5);
+        turner_image_destroy(&back);
+    }
+    turner_image_destroy(&image);
+}
+
 /* Around each float where an 8-bit sample changes, the sample is the one that the formula gives. */
 static void every_step_is_where_the_curve_has_it(void **state)
 {
@@ -296,6 +314,7 @@ int main(void)
         cmocka_unit_test(integers_come_back_to_half_a_step),
         cmocka_unit_test(shared_exponent_keeps_eight_bits),
         cmocka_unit_test(exposure_curve_and_clamping),
+        cmocka_unit_test(rows_of_large_pictures),
         cmocka_unit_test(every_step_is_where_the_curve_has_it),
         cmocka_unit_test(texts_are_in_the_file_and_the_date_is_not),
         cmocka_unit_test(same_picture_same_bytes),

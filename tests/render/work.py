@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """However the work of a picture is shared out, all of it is drawn once: work.py TURNER ROOT.
 
-The threads of a CPU device take groups of samples one by one (shaders/work.glsl) and add up what they count at
-the end, or before it no longer fits (shaders/render.comp). The picture's size is no multiple of
+The threads of a CPU device take groups of samples one by one (shaders/work.glsl) and add up what
+they count at the end, or before it no longer fits (shaders/render.comp). The picture's size is no multiple of
 anything; tiles are large and small; there are samples in lists, too; counts are added up at the end,
 and after each packet, as shaders do where that is made the limit."""
 import json
